@@ -1,0 +1,62 @@
+# Needs Python >= 3.11, make, and the PyPI and npm registries; everything else is fetched into .tools and .venv.
+PYTHON ?= python3
+UV     := $(or $(shell command -v uv 2>/dev/null),.tools/bin/uv)
+BIN    := .venv/bin
+STAMP  := .venv/.installed
+NODE   := $(BIN)/python tools/node.py
+FRONTEND := $(shell find frontend/src frontend/public frontend/index.html frontend/*.json frontend/*.ts -type f 2>/dev/null)
+
+.DEFAULT_GOAL := setup
+.PHONY: setup demo test lint format bench screenshots openapi lock clean
+
+setup: $(STAMP)
+
+$(STAMP): pyproject.toml requirements.lock build_frontend.py $(FRONTEND)
+	test -x "$(UV)" || { $(PYTHON) -m venv .tools && .tools/bin/python -m pip install --quiet "uv>=0.5"; }
+	test -x $(BIN)/python || $(UV) venv --quiet --python $(PYTHON) .venv
+	$(UV) pip sync --quiet --python $(BIN)/python --require-hashes requirements.lock
+	$(UV) pip install --quiet --python $(BIN)/python --no-deps --editable .
+	touch $@
+
+demo: setup
+	$(BIN)/clearlines demo $(ARGS)
+
+test: lint
+	$(NODE) vitest run
+	$(BIN)/python tools/browser.py
+	$(BIN)/pytest -n 2 --dist loadgroup $(ARGS)
+
+lint: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(NODE) pyright --project ../pyproject.toml --warnings
+	$(BIN)/lint-imports
+	$(NODE) biome check .
+	$(NODE) tsc --noEmit
+
+format: setup
+	$(BIN)/ruff check --fix-only .
+	$(BIN)/ruff format .
+	$(NODE) biome check --write .
+
+bench: setup
+	$(BIN)/python benchmarks/all.py $(ARGS)
+
+screenshots: setup
+	$(BIN)/python tools/browser.py
+	$(BIN)/python tools/screenshots.py
+
+# The browser tool's types follow the server's OpenAPI document; a test says so when they don't.
+openapi: setup
+	$(BIN)/python tools/openapi.py
+	$(NODE) openapi-typescript src/api/openapi.json --output src/api/schema.ts
+
+# Neither lock file names a registry's address.
+lock:
+	test -x "$(UV)" || { $(PYTHON) -m venv .tools && .tools/bin/python -m pip install --quiet "uv>=0.5"; }
+	$(UV) pip compile --quiet --universal --python-version 3.11 --extra dev --generate-hashes --no-emit-index-url \
+		--no-emit-find-links --custom-compile-command "make lock" --output-file requirements.lock pyproject.toml $(ARGS)
+	cd frontend && npm install --package-lock-only --omit-lockfile-registry-resolved
+
+clean:
+	rm -rf .venv .tools app/static frontend/node_modules dist
