@@ -1,0 +1,127 @@
+"""Straightness, measured in the distorted image.
+
+Distances of corrected points from their line shrink with the corrected image, so a fit that minimises them can win by
+collapsing the image. The first-order (Sampson) distance in the measured image can't:
+
+    e_i = n . (U_i - mean U) / |J_i^T n|    px
+
+with U_i the corrected point, n the normal of the total-least-squares line through the segment's corrected points and
+J_i the Jacobian of the correction. The lines are eliminated (variable projection, Golub and Pereyra 1973): they are
+refitted at every set of lens parameters, and the derivatives are taken with normals and weights frozen and with what
+a line can absorb projected out (Kaufman 1975).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.vision.bins import BinnedSegments
+from app.vision.brown import Mapped
+from app.vision.segments import Segments
+
+Array = NDArray[np.float64]
+
+
+class Lens(Protocol):
+    """A lens with its Jacobian."""
+
+    def undistort(self, points: ArrayLike) -> Array:
+        """Map measured points ``(N, 2)`` in px to corrected ones."""
+        ...
+
+    def jacobian(self, points: ArrayLike) -> Array:
+        """Return d(corrected) / d(measured), ``(N, 2, 2)``."""
+        ...
+
+
+class Family(NamedTuple):
+    """A family of lenses over normalised coordinates: the functions of `app.vision.brown` or `division`."""
+
+    map_points: Callable[[Array, Array, Array], Mapped]
+    map_derivatives: Callable[[Array, Array, Array], tuple[Array, Array]]
+
+
+class Bend(NamedTuple):
+    """Amplitudes of the quadratic and the cubic part of segments, in px of the measured image; the signs mean nothing.
+
+    Attributes:
+        quadratic: float64 ``(S,)``.
+        cubic: float64 ``(S,)``.
+        quadratic_slope: float64 ``(S, P)``, derivatives by the family's parameters; P is 0 if they weren't asked for.
+        cubic_slope: Likewise.
+    """
+
+    quadratic: Array
+    cubic: Array
+    quadratic_slope: Array
+    cubic_slope: Array
+
+
+def sampson_residuals(segments: Segments, lens: Lens) -> Array:
+    """Return each point's signed distance in px, in the measured image, from its segment's straight line.
+
+    Args:
+        segments: Segments in px.
+        lens: The lens under which they should be straight.
+
+    Returns:
+        float64 ``(N,)`` for the N points, positive towards (-dy, dx) where (dx, dy) leads from a segment's first
+        point to its last; 0 for the points of segments that don't extend.
+    """
+    corrected = lens.undistort(segments.points)
+    jacobian = lens.jacobian(segments.points)
+    of_point, counts, number = segments.segment_of_point, segments.counts, len(segments)
+    x, y = (
+        values - (np.bincount(of_point, values, number) / counts)[of_point]
+        for values in (corrected[:, 0], corrected[:, 1])
+    )
+    xx, xy, yy = (np.bincount(of_point, values, number) for values in (x * x, x * y, y * y))
+    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
+    ends = segments.points[segments.offsets[1:] - 1] - segments.points[segments.offsets[:-1]]
+    angle += np.where(ends[:, 0] * np.cos(angle) + ends[:, 1] * np.sin(angle) < 0, np.pi, 0.0)
+    nx, ny = -np.sin(angle)[of_point], np.cos(angle)[of_point]
+    stretch = np.hypot(jacobian[:, 0, 0] * nx + jacobian[:, 1, 0] * ny, jacobian[:, 0, 1] * nx + jacobian[:, 1, 1] * ny)
+    return (nx * x + ny * y) / np.maximum(stretch, 1e-6)
+
+
+def bend(binned: BinnedSegments, family: Family, parameters: Array, *, slopes: bool = False) -> Bend:
+    """Return how far the binned segments still bend under a lens.
+
+    Args:
+        binned: The segments.
+        family: The lens family.
+        parameters: The family's parameters in half diagonals.
+        slopes: Whether to give the derivatives by all parameters as well.
+    """
+    x, y, weight = binned.x, binned.y, binned.weight
+    mapped = family.map_points(parameters, x, y)
+    u = mapped.x - np.einsum("sb,sb->s", weight, mapped.x)[:, None]
+    v = mapped.y - np.einsum("sb,sb->s", weight, mapped.y)[:, None]
+    wu, wv = weight * u, weight * v
+    xx, xy, yy = np.einsum("sb,sb->s", wu, u), np.einsum("sb,sb->s", wu, v), np.einsum("sb,sb->s", wv, v)
+    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
+    nx, ny = -np.sin(angle)[:, None], np.cos(angle)[:, None]
+    stretch = np.sqrt((mapped.xx * nx + mapped.xy * ny) ** 2 + (mapped.xy * nx + mapped.yy * ny) ** 2)
+    ratio = binned.scale / np.maximum(stretch, 1e-6)
+    residual = ratio * (nx * u + ny * v)
+    quadratic = np.einsum("sb,sb->s", binned.quadratic, residual)
+    cubic = np.einsum("sb,sb->s", binned.cubic, residual)
+    if not slopes:
+        return Bend(quadratic, cubic, np.zeros((len(binned), 0)), np.zeros((len(binned), 0)))
+    dx, dy = family.map_derivatives(parameters, x, y)
+    moved = nx * dx + ny * dy
+    moved -= np.einsum("sb,psb->ps", weight, moved)[:, :, None]
+    # the line moves and turns with its points; what it follows is no bend
+    along = ny * u - nx * v
+    turn = np.einsum("sb,psb->ps", weight * along, moved) / np.maximum(np.einsum("sb,sb->s", weight, along**2), 1e-12)
+    moved = ratio * (moved - turn[:, :, None] * along)
+    return Bend(
+        quadratic,
+        cubic,
+        np.einsum("sb,psb->sp", binned.quadratic, moved),
+        np.einsum("sb,psb->sp", binned.cubic, moved),
+    )
