@@ -1,0 +1,10 @@
+"""Image files: what they are, their pixels as stored, and what a browser is shown.
+
+Pixels count as stored: an orientation in the file's EXIF or TIFF tags is applied nowhere, alpha is ignored.
+"""
+
+from app.images.browser import for_browser, thumbnail
+from app.images.decode import decode_display, decode_gray
+from app.images.header import MAX_PIXELS, ImageHeader, describe
+
+__all__ = ["MAX_PIXELS", "ImageHeader", "decode_display", "decode_gray", "describe", "for_browser", "thumbnail"]

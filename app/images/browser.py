@@ -1,0 +1,60 @@
+"""Images as a browser is shown them."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.errors import InvalidImage, InvalidInput
+from app.images.decode import decode_eight_bit
+from app.images.header import MAX_PIXELS, describe
+
+SHOWN_AS_STORED = frozenset({"PNG", "JPEG", "WEBP", "BMP"})
+THUMBNAIL_TYPE = "image/webp"
+THUMBNAIL_QUALITY = 80
+
+
+def for_browser(data: bytes, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, str]:
+    """Return bytes that a browser shows pixel by pixel as the image is stored, and their media type.
+
+    The file itself, if it is 8-bit PNG, JPEG, WebP or BMP that no EXIF orientation turns and no alpha veils; else an
+    8-bit PNG of its pixels.
+
+    Raises:
+        InvalidImage: If it can't be read.
+        TooLarge: If it has more pixels than accepted.
+    """
+    header = describe(data, max_pixels=max_pixels)
+    opaque = header.channels in (1, 3)
+    if header.format in SHOWN_AS_STORED and header.bits == 8 and header.orientation == 1 and opaque:
+        return data, header.media_type
+    # filtering and a quick deflate: a page waits for this
+    fast = [cv2.IMWRITE_PNG_COMPRESSION, 2]
+    return _encode(".png", decode_eight_bit(data, max_pixels=max_pixels), fast), "image/png"
+
+
+def thumbnail(data: bytes, size: int = 320, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, str]:
+    """Return a WebP whose longer side has at most ``size`` px, and its media type. A small image isn't enlarged.
+
+    Raises:
+        InvalidImage: If it can't be read.
+        InvalidInput: On a size outside 16 to 2048.
+        TooLarge: If it has more pixels than accepted.
+    """
+    if not 16 <= size <= 2048:
+        raise InvalidInput(f"a thumbnail of {size} px", where="size", expected="16 to 2048")
+    pixels = decode_eight_bit(data, max_pixels=max_pixels)
+    height, width = pixels.shape[:2]
+    scale = size / max(width, height)
+    if scale < 1:
+        target = (max(1, round(width * scale)), max(1, round(height * scale)))
+        pixels = cv2.resize(pixels, target, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
+    return _encode(".webp", pixels, [cv2.IMWRITE_WEBP_QUALITY, THUMBNAIL_QUALITY]), THUMBNAIL_TYPE
+
+
+def _encode(extension: str, pixels: NDArray[np.uint8], options: list[int]) -> bytes:
+    done, encoded = cv2.imencode(extension, pixels, options)
+    if not done:
+        raise InvalidImage("the image can't be encoded for the browser")
+    return encoded.tobytes()
