@@ -1,0 +1,23 @@
+# One process: API, browser tool and workers. See docker-compose.yml for how it is meant to be started.
+FROM python:3.12-slim AS build
+WORKDIR /source
+COPY . .
+RUN pip install --no-cache-dir build \
+ && python -m build --wheel --outdir /wheels
+
+FROM python:3.12-slim
+COPY requirements.lock /tmp/requirements.lock
+COPY --from=build /wheels /wheels
+# the lock file pins what the wheel needs; its hashes can't cover the wheel itself, so it is stripped to constraints
+RUN sed -E 's/ \\$//; /^ +--hash/d' /tmp/requirements.lock > /tmp/constraints.txt \
+ && pip install --no-cache-dir --constraint /tmp/constraints.txt /wheels/*.whl \
+ && rm -r /wheels /tmp/requirements.lock /tmp/constraints.txt \
+ && useradd --create-home clearlines \
+ && install -d -o clearlines /data
+USER clearlines
+ENV CLEARLINES_DATA_DIR=/data
+VOLUME /data
+EXPOSE 8765
+HEALTHCHECK --interval=10s --timeout=3s --start-period=20s \
+  CMD ["python", "-c", "import urllib.request; urllib.request.urlopen('http://127.0.0.1:8765/api/health', timeout=2)"]
+CMD ["clearlines", "serve", "--port", "8765", "--no-browser"]

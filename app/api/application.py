@@ -1,0 +1,89 @@
+"""The web application: one process serves the API, the browser tool and works off pre-labelling runs."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+
+from fastapi import APIRouter, FastAPI
+from fastapi.responses import RedirectResponse
+from starlette.exceptions import HTTPException
+from starlette.middleware.gzip import GZipMiddleware
+
+from app import __version__
+from app.api.deps import Server
+from app.api.guard import Guard
+from app.api.problems import answers, install_problem_handlers
+from app.api.routers import cameras, datasets, exports, images, labelling, runs, system, uploads
+from app.db.session import open_database, upgrade
+from app.jobs.dispatcher import Dispatcher
+from app.settings import Settings
+from app.storage import BlobStore
+
+STATIC = Path(__file__).resolve().parent.parent / "static"
+DESCRIPTION = """
+Turn street images into ground truth for straight edge-segments: upload, pre-label, keep or reject, export.
+
+Coordinates: x right, y down, in px, pixel centre at integers. Errors are problem documents (RFC 9457).
+"""
+
+
+def utc_now() -> datetime:
+    """Return the time, UTC; the one clock of a served application."""
+    return datetime.now(UTC)
+
+
+def create_application(settings: Settings) -> FastAPI:
+    """Return the application; the database is opened, and the work taken up, when it starts."""
+
+    @asynccontextmanager
+    async def lifespan(application: FastAPI) -> AsyncIterator[None]:
+        database = open_database(settings.database_address)
+        upgrade(database)
+        blobs = BlobStore(settings.blob_dir)
+        dispatcher = Dispatcher(database, blobs, settings, utc_now)
+        application.state.server = Server(settings, database, blobs, dispatcher, utc_now)
+        dispatcher.start()
+        try:
+            yield
+        finally:
+            dispatcher.stop()
+            database.close()
+
+    application = FastAPI(
+        title="ClearLines",
+        version=__version__,
+        description=DESCRIPTION,
+        lifespan=lifespan,
+        openapi_url="/api/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+        responses=answers(403, 422),
+    )
+    install_problem_handlers(application)
+    for router in (system, datasets, uploads, images, labelling, runs, cameras, exports):
+        application.include_router(router.router, prefix="/api")
+    application.include_router(_unknown_addresses())
+    if (STATIC / "index.html").is_file():
+        application.frontend("/", directory=str(STATIC))
+    application.add_middleware(GZipMiddleware, minimum_size=2000, compresslevel=5)
+    application.add_middleware(Guard, max_body_bytes=settings.max_upload_bytes)
+    return application
+
+
+def _unknown_addresses() -> APIRouter:
+    """Return the routes that keep the browser tool from answering for the API."""
+    router = APIRouter(include_in_schema=False)
+
+    @router.get("/api/docs")
+    def documentation() -> RedirectResponse:
+        return RedirectResponse("/docs/api")
+
+    @router.api_route("/api/{path:path}", methods=["GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"])
+    def unknown(path: str) -> None:
+        del path
+        raise HTTPException(404)
+
+    return router

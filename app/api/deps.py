@@ -1,0 +1,53 @@
+"""What routes ask for, as annotated aliases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Annotated
+
+from fastapi import Depends, Query, Request
+from sqlalchemy.orm import Session
+
+from app.db.session import Database
+from app.jobs.dispatcher import Dispatcher
+from app.settings import Settings
+from app.storage import BlobStore
+
+
+@dataclass(frozen=True)
+class Server:
+    """What one running server holds: made at its start, closed at its end."""
+
+    settings: Settings
+    database: Database
+    blobs: BlobStore
+    dispatcher: Dispatcher
+    clock: Callable[[], datetime]
+
+
+def get_server(request: Request) -> Server:
+    """Return the server that answers this request."""
+    server: Server = request.app.state.server
+    return server
+
+
+ServerDep = Annotated[Server, Depends(get_server)]
+
+
+def get_reader(server: ServerDep) -> Iterator[Session]:
+    """Give a session that only reads, for the time of one request."""
+    with server.database.read() as session:
+        yield session
+
+
+def get_now(server: ServerDep) -> datetime:
+    """Return the time of the request, UTC."""
+    return server.clock()
+
+
+Reader = Annotated[Session, Depends(get_reader, scope="function")]
+Now = Annotated[datetime, Depends(get_now)]
+Limit = Annotated[int, Query(ge=1, le=500, description="At most this many.")]
+Cursor = Annotated[str | None, Query(max_length=2000, description="From ``next_cursor`` of the page before.")]

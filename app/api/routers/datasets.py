@@ -1,0 +1,66 @@
+"""Datasets: list, make, rename, delete and restore."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, status
+
+from app.api.deps import Now, Reader, ServerDep
+from app.api.problems import answers
+from app.api.schemas.datasets import DatasetAnswer, DatasetGiven, Deleted
+from app.services import dataset_overviews, datasets
+
+router = APIRouter(prefix="/datasets", tags=["datasets"])
+
+
+@router.get("")
+def list_datasets(server: ServerDep, session: Reader, deleted: bool = False) -> list[DatasetAnswer]:
+    """List the datasets by name; with ``deleted`` those that can still be restored."""
+    found = dataset_overviews.list_datasets(session, grace=server.settings.grace, deleted=deleted)
+    return [DatasetAnswer.model_validate(dataset) for dataset in found]
+
+
+@router.post("", status_code=status.HTTP_201_CREATED, responses=answers(409))
+def create_dataset(server: ServerDep, now: Now, given: DatasetGiven) -> DatasetAnswer:
+    """Make an empty dataset."""
+    with server.database.write() as session:
+        dataset = datasets.create_dataset(session, given.name, now, person=server.settings.person)
+        return _answer(server, session, dataset.slug)
+
+
+@router.get("/{slug}", responses=answers(404))
+def read_dataset(server: ServerDep, session: Reader, slug: str) -> DatasetAnswer:
+    """Return one dataset with how far it is."""
+    return _answer(server, session, slug)
+
+
+@router.patch("/{slug}", responses=answers(404, 409))
+def rename_dataset(server: ServerDep, now: Now, slug: str, given: DatasetGiven) -> DatasetAnswer:
+    """Give a dataset another name; its address stays."""
+    with server.database.write() as session:
+        dataset = datasets.rename_dataset(session, slug, given.name, now, person=server.settings.person)
+        return _answer(server, session, dataset.slug)
+
+
+@router.delete("/{slug}", responses=answers(404))
+def delete_dataset(server: ServerDep, now: Now, slug: str) -> Deleted:
+    """Delete a dataset with all that is in it; it can be restored during the grace period."""
+    with server.database.write() as session:
+        deleted = datasets.delete_dataset(
+            session, slug, now, grace=server.settings.grace, person=server.settings.person
+        )
+        return Deleted.model_validate(deleted)
+
+
+@router.post("/{slug}/restore", responses=answers(404, 409))
+def restore_dataset(server: ServerDep, now: Now, slug: str) -> DatasetAnswer:
+    """Bring a deleted dataset back."""
+    with server.database.write() as session:
+        dataset = datasets.restore_dataset(session, slug, now, person=server.settings.person)
+        answer = _answer(server, session, dataset.slug)
+    server.dispatcher.wake()
+    return answer
+
+
+def _answer(server: ServerDep, session: Reader, slug: str) -> DatasetAnswer:
+    overview = dataset_overviews.dataset_overview(session, slug, grace=server.settings.grace)
+    return DatasetAnswer.model_validate(overview)

@@ -1,0 +1,193 @@
+"""Images: list, change, delete and restore; their pixels."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Header, Query, Response
+from fastapi.responses import FileResponse
+
+from app.api.deps import Cursor, Limit, Now, Reader, ServerDep
+from app.api.problems import answers
+from app.api.schemas.base import ReviewState
+from app.api.schemas.datasets import Deleted, Restored
+from app.api.schemas.images import (
+    Facets,
+    ImageChange,
+    ImageDetail,
+    ImageIds,
+    ImagePage,
+    ImagesChange,
+    PrelabelState,
+    Updated,
+)
+from app.images import for_browser, thumbnail
+from app.services import image_changes, image_details, image_lists, images
+from app.services.datasets import get_dataset
+
+router = APIRouter(tags=["images"], responses=answers(404))
+FOREVER = "private, max-age=31536000, immutable"
+
+
+class ThumbnailSize(IntEnum):
+    """Longer side of a thumbnail, px."""
+
+    SMALL = 160
+    MEDIUM = 320
+    LARGE = 640
+
+
+Sort = Literal["name", "-name", "created", "-created", "candidates", "-candidates"]
+
+
+@router.get("/datasets/{slug}/images")
+def list_images(
+    session: Reader,
+    slug: str,
+    status: ReviewState | None = None,
+    source: str | None = None,
+    camera: int | None = None,
+    sequence: str | None = None,
+    prelabel: PrelabelState | None = None,
+    search: Annotated[str | None, Query(max_length=300, description="Part of the name.")] = None,
+    sort: Sort = "name",
+    deleted: bool = False,
+    limit: Limit = 100,
+    cursor: Cursor = None,
+) -> ImagePage:
+    """List the images of a dataset, page by page."""
+    chosen = image_lists.ImageFilter(
+        status=status,
+        source=source,
+        camera=camera,
+        sequence=sequence,
+        prelabel=prelabel,
+        search=search,
+        deleted=deleted,
+    )
+    dataset = get_dataset(session, slug)
+    page = image_lists.list_images(session, dataset, chosen, sort=sort, limit=limit, cursor=cursor)
+    return ImagePage.model_validate(page)
+
+
+@router.get("/datasets/{slug}/facets")
+def read_facets(session: Reader, slug: str) -> Facets:
+    """Return what the images of a dataset can be filtered by, with counts."""
+    return Facets.model_validate(image_lists.facets(session, get_dataset(session, slug)))
+
+
+@router.patch("/datasets/{slug}/images")
+def change_images(server: ServerDep, now: Now, slug: str, given: ImagesChange) -> Updated:
+    """Change camera, source or sequence of many images; all of them or none."""
+    with server.database.write() as session:
+        count = image_changes.update_images(
+            session, get_dataset(session, slug), given.ids, _changes(given), now, person=server.settings.person
+        )
+    return Updated(updated=count)
+
+
+@router.post("/datasets/{slug}/images/delete")
+def delete_images(server: ServerDep, now: Now, slug: str, given: ImageIds) -> Deleted:
+    """Delete many images; they can be restored during the grace period."""
+    settings = server.settings
+    with server.database.write() as session:
+        dataset = get_dataset(session, slug)
+        deleted = images.delete_images(session, dataset, given.ids, now, grace=settings.grace, person=settings.person)
+        return Deleted.model_validate(deleted)
+
+
+@router.post("/datasets/{slug}/images/restore", responses=answers(409))
+def restore_images(server: ServerDep, now: Now, slug: str, given: ImageIds) -> Restored:
+    """Bring deleted images back."""
+    with server.database.write() as session:
+        dataset = get_dataset(session, slug)
+        count = images.restore_images(session, dataset, given.ids, now, person=server.settings.person)
+    server.dispatcher.wake()
+    return Restored(restored=count)
+
+
+@router.get("/images/{image_id}")
+def read_image(session: Reader, image_id: int) -> ImageDetail:
+    """Return an image with its neighbours, its lens and its run."""
+    return ImageDetail.model_validate(image_details.image_detail(session, images.get_image(session, image_id)))
+
+
+@router.patch("/images/{image_id}", responses=answers(409))
+def change_image(server: ServerDep, now: Now, image_id: int, given: ImageChange) -> ImageDetail:
+    """Rename an image, or change its camera, source or sequence."""
+    person = server.settings.person
+    with server.database.write() as session:
+        image = images.get_image(session, image_id)
+        dataset = images.dataset_of(session, image)
+        image_changes.update_images(session, dataset, [image.id], _changes(given), now, person=person)
+        if given.name is not None:
+            image_changes.rename_image(session, image, given.name, now, person=person)
+        session.refresh(image)
+        return ImageDetail.model_validate(image_details.image_detail(session, image))
+
+
+@router.delete("/images/{image_id}")
+def delete_image(server: ServerDep, now: Now, image_id: int) -> Deleted:
+    """Delete an image; it can be restored during the grace period."""
+    settings = server.settings
+    with server.database.write() as session:
+        image = images.get_image(session, image_id)
+        dataset = images.dataset_of(session, image)
+        deleted = images.delete_images(session, dataset, [image.id], now, grace=settings.grace, person=settings.person)
+        return Deleted.model_validate(deleted)
+
+
+@router.get("/images/{image_id}/original", response_class=FileResponse)
+def read_original(server: ServerDep, session: Reader, image_id: int) -> FileResponse:
+    """Return the file as it was uploaded."""
+    image = images.get_image(session, image_id)
+    return FileResponse(
+        server.blobs.path(image.sha256),
+        filename=image.file_name.rpartition("/")[2],
+        media_type="application/octet-stream",
+        headers={"Cache-Control": FOREVER, "ETag": f'"{image.sha256}"'},
+    )
+
+
+PIXELS = {200: {"content": {"image/*": {"schema": {"type": "string", "format": "binary"}}}}}
+
+
+@router.get("/images/{image_id}/display", response_class=Response, responses={**PIXELS})
+def read_display(
+    server: ServerDep, session: Reader, image_id: int, if_none_match: Annotated[str | None, Header()] = None
+) -> Response:
+    """Return the image in a form that a browser shows, pixels as stored: no EXIF rotation, 16 bit brought to 8."""
+    image = images.get_image(session, image_id)
+    tag = f'"{image.sha256}-display"'
+    if if_none_match == tag:
+        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": FOREVER})
+    content, media_type = for_browser(server.blobs.read(image.sha256), max_pixels=server.settings.max_image_pixels)
+    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": FOREVER})
+
+
+@router.get("/images/{image_id}/thumbnail", response_class=Response, responses={**PIXELS})
+def read_thumbnail(
+    server: ServerDep,
+    session: Reader,
+    image_id: int,
+    size: ThumbnailSize = ThumbnailSize.MEDIUM,
+    if_none_match: Annotated[str | None, Header()] = None,
+) -> Response:
+    """Return a small picture whose longer side is ``size`` px."""
+    image = images.get_image(session, image_id)
+    tag = f'"{image.sha256}-{size.value}"'
+    if if_none_match == tag:
+        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": FOREVER})
+    data = server.blobs.read(image.sha256)
+    content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
+    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": FOREVER})
+
+
+def _changes(given: ImagesChange | ImageChange) -> image_changes.ImageChanges:
+    """Return the fields that the request names; ``null`` clears one, leaving it out doesn't."""
+    named = given.model_fields_set & {"camera", "source", "sequence"}
+    chosen = {name: getattr(given, name) for name in named}
+    if chosen.get("camera", "") is None:
+        del chosen["camera"]
+    return image_changes.ImageChanges(**chosen)

@@ -1,0 +1,36 @@
+"""Health and what the browser tool must know about the server."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from app.api.schemas.base import Answer
+
+
+class Health(Answer):
+    """The server answers."""
+
+    status: Literal["ok"] = "ok"
+    version: str
+
+
+class Limits(Answer):
+    """Bounds on what is uploaded."""
+
+    max_image_pixels: int
+    max_upload_bytes: int
+    max_archive_members: int
+    max_archive_bytes: int
+
+
+class Configuration(Answer):
+    """What the browser tool must know before it shows anything."""
+
+    version: str
+    limits: Limits
+    grace_days: int
+    run_defaults: dict[str, Any]
+    operating_points: list[str]
+    export_formats: list[str]
+    local: bool
+    person: str

@@ -1,0 +1,155 @@
+"""Opening the database, and sessions that read or write.
+
+SQLite: many readers beside one writer (WAL). A writing session begins with ``BEGIN IMMEDIATE``: it waits for its turn
+*before* it reads, so what it read is still true when it writes. With the default, deferred BEGIN, a session that reads
+first and writes later fails at once with "database is locked" when another one wrote in between: no timeout helps.
+
+PostgreSQL: a reading session sees one snapshot of the data, as on SQLite. Writers run side by side; those that read
+before they write lock the rows they decide on with ``with_for_update()``, which SQLite needs not and ignores.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
+from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, OperationalError
+from sqlalchemy.orm import Session
+
+from app.errors import Conflict, InvalidInput, Unavailable
+
+BUSY_TIMEOUT = 30.0  # s
+POOL_SIZE = 20
+POOL_OVERFLOW = 30
+UNIQUE_VIOLATION = "23505"  # SQLSTATE
+
+
+@dataclass(frozen=True)
+class Database:
+    """A database that services read and write through.
+
+    Attributes:
+        engine: The pool of connections.
+    """
+
+    engine: Engine
+
+    @property
+    def is_sqlite(self) -> bool:
+        """Whether the rows lie in one SQLite file."""
+        return self.engine.dialect.name == "sqlite"
+
+    @contextmanager
+    def read(self) -> Iterator[Session]:
+        """Give a session that sees one snapshot and can't write (the database itself refuses)."""
+        with Session(self._engine_for_reading(), expire_on_commit=False, autoflush=False) as session:
+            yield session
+
+    @contextmanager
+    def write(self) -> Iterator[Session]:
+        """Give a writing session: committed at the end, rolled back on an error.
+
+        Raises:
+            Conflict: When someone else stored the same name or content at the same moment.
+            Unavailable: When the database is locked, out of reach, or chose this session to break a deadlock.
+        """
+        engine = self.engine.execution_options(sqlite_begin="IMMEDIATE") if self.is_sqlite else self.engine
+        try:
+            with Session(engine, expire_on_commit=False) as session, session.begin():
+                yield session
+        except DBAPIError as error:
+            raise _as_told(error) from error
+
+    def close(self) -> None:
+        """Close all connections; the database can be used again afterwards."""
+        self.engine.dispose()
+
+    def _engine_for_reading(self) -> Engine:
+        if self.is_sqlite:
+            return self.engine
+        return self.engine.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)
+
+
+def open_database(url: str | URL, *, busy_timeout: float = BUSY_TIMEOUT) -> Database:
+    """Open a database; nothing is created or changed before ``upgrade``.
+
+    Args:
+        url: ``sqlite:///path/to/file.sqlite3`` or ``postgresql://user@host/name`` (psycopg 3 is used).
+        busy_timeout: How long a writer waits for its turn on SQLite, in s.
+
+    Raises:
+        InvalidInput: When the address can't be read, or names another kind of database.
+    """
+    address = _checked_address(url)
+    options: dict[str, Any] = {"pool_size": POOL_SIZE, "max_overflow": POOL_OVERFLOW}
+    if address.get_backend_name() == "sqlite":
+        Path(str(address.database)).parent.mkdir(parents=True, exist_ok=True)
+        engine = create_engine(address, connect_args={"timeout": busy_timeout}, **options)
+        event.listen(engine, "connect", _prepare_sqlite)
+        event.listen(engine, "begin", _begin_sqlite)
+    else:
+        engine = create_engine(address, pool_pre_ping=True, **options)
+    return Database(engine)
+
+
+def upgrade(database: Database) -> None:
+    """Bring the tables to this version's form; safe to call at each start, also by several processes at once."""
+    from app.db.migrations import run_upgrade
+
+    run_upgrade(database.engine)
+
+
+def _checked_address(url: str | URL) -> URL:
+    kinds = "sqlite:///FILE or postgresql://USER@HOST/NAME"
+    try:
+        address = make_url(url)
+        backend = address.get_backend_name()
+    except ArgumentError as error:
+        raise InvalidInput("the database's address can't be read", where="database_url", expected=kinds) from error
+    if backend == "postgresql":
+        return address.set(drivername="postgresql+psycopg")
+    if backend != "sqlite":
+        raise InvalidInput(f"databases of the kind {backend} aren't supported", where="database_url", expected=kinds)
+    if address.database in (None, "", ":memory:"):
+        raise InvalidInput(
+            "a database in memory would differ from one connection to the next",
+            where="database_url",
+            expected=kinds,
+        )
+    return address
+
+
+def _prepare_sqlite(connection: Any, _record: object) -> None:
+    # sqlite3 would otherwise begin transactions by itself, and never IMMEDIATE
+    connection.isolation_level = None
+    cursor = connection.cursor()
+    cursor.execute("PRAGMA journal_mode = WAL")
+    cursor.execute("PRAGMA synchronous = NORMAL")
+    cursor.close()
+
+
+def _begin_sqlite(connection: Connection) -> None:
+    options = connection.get_execution_options()
+    mode = options.get("sqlite_begin")
+    connection.exec_driver_sql(f"PRAGMA query_only = {'OFF' if mode else 'ON'}")
+    connection.exec_driver_sql(f"PRAGMA foreign_keys = {options.get('sqlite_foreign_keys', 'ON')}")
+    connection.exec_driver_sql(f"BEGIN {mode}" if mode else "BEGIN DEFERRED")
+
+
+def _as_told(error: DBAPIError) -> Exception:
+    """Return the error to raise: ours where a person can do something about it, else the database's own."""
+    cause: Any = error.orig
+    state = getattr(cause, "sqlstate", None) or getattr(cause, "sqlite_errorname", None) or ""
+    if isinstance(error, IntegrityError) and state in (
+        UNIQUE_VIOLATION,
+        "SQLITE_CONSTRAINT_UNIQUE",
+        "SQLITE_CONSTRAINT_PRIMARYKEY",
+    ):
+        return Conflict("someone else stored the same thing at the same moment", hint="reload and try again")
+    if isinstance(error, OperationalError):
+        return Unavailable(f"the database can't answer: {cause}", hint="try again in a moment")
+    return error

@@ -1,0 +1,1 @@
+"""Work in the background: rows in the database, worked off by processes."""

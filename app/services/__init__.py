@@ -1,0 +1,1 @@
+"""What ClearLines does, as plain functions over a database session; no HTTP."""

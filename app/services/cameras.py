@@ -1,0 +1,222 @@
+"""Cameras: the images that share one lens, its estimates, and a reference distortion known from elsewhere."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from sqlalchemy import func, or_, select
+from sqlalchemy.orm import Session
+
+from app.db.models import Camera, CameraEstimate, Dataset, Image, Run
+from app.errors import Conflict, InvalidInput, NotFound
+from app.formats.reference_camera import ReferenceCamera, read_cameras
+from app.services.events import record_event
+
+NAME_LENGTH = 300
+
+
+@dataclass(frozen=True)
+class CameraEntry:
+    """A camera as lists show it.
+
+    Attributes:
+        images: Number of its images.
+        reference: ``{"K": 3 x 3, "D": [k1, k2, p1, p2, k3]}`` in OpenCV's convention, px; ``None`` if unknown.
+        estimate: The distortion that the newest run estimated (see ``DistortionEstimate.as_dict``).
+    """
+
+    id: int
+    name: str
+    width: int
+    height: int
+    images: int
+    reference: dict[str, Any] | None
+    estimate: dict[str, Any] | None
+
+
+def default_camera_name(image_name: str, width: int, height: int) -> str:
+    """Return the camera of an image of which nothing is known: images of one folder and size share it."""
+    folder = image_name.rpartition("/")[0]
+    return f"{folder} {width}x{height}".strip()[-NAME_LENGTH:]
+
+
+def camera_for(session: Session, dataset: Dataset, name: str, width: int, height: int, now: datetime) -> Camera:
+    """Return the dataset's camera of that name; it is made if new.
+
+    Raises:
+        InvalidInput: When the name can't be used, or the camera's images have another size.
+    """
+    name = _checked_name(name)
+    query = select(Camera).where(Camera.dataset_id == dataset.id, Camera.name == name)
+    camera = session.scalars(query).one_or_none()
+    if camera is None:
+        camera = Camera(dataset_id=dataset.id, name=name, width=width, height=height, created_at=now)
+        session.add(camera)
+        session.flush()
+    elif (camera.width, camera.height) != (width, height):
+        raise InvalidInput(
+            f"the camera {name} takes images of {camera.width} x {camera.height} px, not {width} x {height}",
+            where="camera",
+            expected="one size per camera",
+            hint="give these images another camera",
+        )
+    return camera
+
+
+def get_camera(session: Session, camera_id: int) -> Camera:
+    """Return a camera of a dataset that isn't deleted.
+
+    Raises:
+        NotFound: When there is none.
+    """
+    query = select(Camera).join(Dataset).where(Camera.id == camera_id, Dataset.deleted_at.is_(None))
+    camera = session.scalars(query).one_or_none()
+    if camera is None:
+        raise NotFound(f"there is no camera {camera_id}")
+    return camera
+
+
+def list_cameras(session: Session, dataset: Dataset) -> list[CameraEntry]:
+    """Return a dataset's cameras by name; those without images only if they have a reference."""
+    return _entries(session, select_cameras_of(dataset))
+
+
+def camera_entry(session: Session, camera: Camera) -> CameraEntry:
+    """Return one camera as lists show it."""
+    return _entries(session, select(Camera.id).where(Camera.id == camera.id))[0]
+
+
+def select_cameras_of(dataset: Dataset) -> Any:
+    """Select the ids of cameras that lists show."""
+    in_use = select(Image.id).where(Image.camera_id == Camera.id, Image.deleted_at.is_(None)).correlate(Camera).exists()
+    return select(Camera.id).where(Camera.dataset_id == dataset.id, or_(in_use, Camera.reference.is_not(None)))
+
+
+def latest_estimates(session: Session, cameras: Any) -> dict[int, dict[str, Any]]:
+    """Return the distortion that the newest run estimated, by camera id.
+
+    Args:
+        session: Any session.
+        cameras: Ids, or a query that selects them. Deleted runs don't count.
+    """
+    newest = (
+        select(func.max(CameraEstimate.id))
+        .join(Run, Run.id == CameraEstimate.run_id)
+        .where(CameraEstimate.camera_id.in_(cameras), Run.deleted_at.is_(None))
+        .group_by(CameraEstimate.camera_id)
+    )
+    query = select(CameraEstimate.camera_id, CameraEstimate.distortion).where(CameraEstimate.id.in_(newest))
+    return dict(session.execute(query).all())
+
+
+def rename_camera(session: Session, camera: Camera, name: str, now: datetime, *, person: str | None = None) -> Camera:
+    """Give a camera another name.
+
+    Raises:
+        InvalidInput: When the name can't be used.
+        Conflict: When another camera of the dataset has it.
+    """
+    name = _checked_name(name)
+    if name == camera.name:
+        return camera
+    query = select(Camera.id).where(Camera.dataset_id == camera.dataset_id, Camera.name == name)
+    if session.scalars(query).one_or_none() is not None:
+        raise Conflict(f"another camera is named {name}", where="name", hint="move its images there instead")
+    details = {"from": camera.name, "to": name}
+    record_event(session, "camera.renamed", now, dataset_id=camera.dataset_id, person=person, details=details)
+    camera.name = name
+    session.flush()
+    return camera
+
+
+def set_reference(
+    session: Session,
+    camera: Camera,
+    reference: Mapping[str, Any] | None,
+    now: datetime,
+    *,
+    person: str | None = None,
+) -> Camera:
+    """Store a calibration that is known from elsewhere, or clear it.
+
+    Args:
+        session: A writing session.
+        camera: The camera.
+        reference: ``{"K": 3 x 3, "D": [k1, k2, p1, p2, ...]}`` in OpenCV's convention, K in px; ``None`` clears it.
+        now: When.
+        person: Who did it.
+
+    Raises:
+        InvalidInput: When it is no such calibration, or one for another image size.
+    """
+    camera.reference = None if reference is None else checked_reference(reference, camera.width, camera.height)
+    session.flush()
+    details = {"camera": camera.name, "reference": camera.reference}
+    record_event(session, "camera.reference", now, dataset_id=camera.dataset_id, person=person, details=details)
+    return camera
+
+
+def checked_reference(reference: Mapping[str, Any], width: int, height: int) -> dict[str, Any]:
+    """Return ``K`` and ``D`` as plain floats.
+
+    Raises:
+        InvalidInput: Naming the field that is wrong.
+    """
+    entry = {"width": width, "height": height, **reference}
+    try:
+        document = json.dumps({"reference": entry}, allow_nan=False).encode()
+    except (TypeError, ValueError) as error:
+        raise InvalidInput("a value is no finite number", where="reference") from error
+    return stored_reference(read_cameras(document, where="reference")["reference"], width, height)
+
+
+def stored_reference(reference: ReferenceCamera, width: int, height: int) -> dict[str, Any]:
+    """Return a reference in the form of the camera's column.
+
+    Raises:
+        InvalidInput: When it is for images of another size.
+    """
+    if (reference.width, reference.height) != (width, height):
+        raise InvalidInput(
+            f"the calibration is for images of {reference.width} x {reference.height} px",
+            where="reference",
+            expected=f"{width} x {height} px",
+        )
+    return {"K": [list(row) for row in reference.matrix], "D": list(reference.distortion)}
+
+
+def reference_camera(camera: Camera) -> ReferenceCamera | None:
+    """Return a camera's reference in the form that files have."""
+    if camera.reference is None:
+        return None
+    rows = tuple((float(a), float(b), float(c)) for a, b, c in camera.reference["K"])
+    return ReferenceCamera(camera.width, camera.height, rows, tuple(camera.reference["D"]))
+
+
+def _entries(session: Session, chosen: Any) -> list[CameraEntry]:
+    images = func.count(Image.id)
+    rows = session.execute(
+        select(Camera, images)
+        .outerjoin(Image, (Image.camera_id == Camera.id) & Image.deleted_at.is_(None))
+        .where(Camera.id.in_(chosen))
+        .group_by(Camera.id)
+        .order_by(Camera.name)
+    ).all()
+    estimates = latest_estimates(session, chosen)
+    return [
+        CameraEntry(
+            camera.id, camera.name, camera.width, camera.height, count, camera.reference, estimates.get(camera.id)
+        )
+        for camera, count in rows
+    ]
+
+
+def _checked_name(name: str) -> str:
+    name = name.strip()
+    if not name or len(name) > NAME_LENGTH or not name.isprintable():
+        raise InvalidInput("this can't be a camera's name", where="camera", expected=f"1 to {NAME_LENGTH} characters")
+    return name

@@ -1,0 +1,98 @@
+"""One image with its neighbours in the dataset, its lens and its run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+from sqlalchemy import func, select
+from sqlalchemy.orm import Session
+
+from app.db.models import Dataset, Image, Review, RunImage
+from app.services.cameras import latest_estimates
+from app.services.image_summaries import ImageSummary, image_summary
+from app.services.run_briefs import RunBrief, run_briefs
+
+
+@dataclass(frozen=True)
+class DatasetName:
+    """Which dataset."""
+
+    slug: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """Where an image stands among its dataset's images in the order of their names.
+
+    Attributes:
+        previous_id: The image before; ``None`` at the beginning.
+        next_id: The image after; ``None`` at the end.
+        next_open_id: The first open image after it, else the first open one from the beginning; never itself.
+        position: From 1.
+        total: Images of the dataset.
+    """
+
+    previous_id: int | None
+    next_id: int | None
+    next_open_id: int | None
+    position: int
+    total: int
+
+
+@dataclass(frozen=True)
+class ImageDetail(ImageSummary):
+    """An image with all that the label page shows around it.
+
+    Attributes:
+        camera_estimate: Distortion of its camera as the newest run estimated it (``DistortionEstimate.as_dict``).
+        run: The run that its current candidates come from.
+        changes: What that run changed for the decisions made before.
+    """
+
+    dataset: DatasetName
+    previous_id: int | None
+    next_id: int | None
+    next_open_id: int | None
+    position: int
+    total: int
+    camera_estimate: dict[str, Any] | None
+    run: RunBrief | None
+    changes: dict[str, Any] | None
+
+
+def image_detail(session: Session, image: Image) -> ImageDetail:
+    """Return an image with its neighbours, lens and run."""
+    summary = image_summary(session, image)
+    dataset = session.get_one(Dataset, image.dataset_id)
+    beside = neighbours(session, image)
+    work = session.get(RunImage, image.current_run_image_id) if image.current_run_image_id else None
+    return ImageDetail(
+        **{field.name: getattr(summary, field.name) for field in fields(summary)},
+        dataset=DatasetName(dataset.slug, dataset.name),
+        previous_id=beside.previous_id,
+        next_id=beside.next_id,
+        next_open_id=beside.next_open_id,
+        position=beside.position,
+        total=beside.total,
+        camera_estimate=latest_estimates(session, [image.camera_id]).get(image.camera_id),
+        run=run_briefs(session, [work.run_id]).get(work.run_id) if work else None,
+        changes=work.changes if work else None,
+    )
+
+
+def neighbours(session: Session, image: Image) -> Neighbours:
+    """Return an image's place among the images of its dataset that aren't deleted."""
+    alive = (Image.dataset_id == image.dataset_id) & Image.deleted_at.is_(None)
+    ids = select(Image.id).where(alive)
+    forwards, backwards = Image.name.asc(), Image.name.desc()
+    still_open = ids.join(Review, Review.image_id == Image.id).where(Review.status == "open", Image.id != image.id)
+    after = Image.name > image.name
+    return Neighbours(
+        previous_id=session.scalar(ids.where(Image.name < image.name).order_by(backwards).limit(1)),
+        next_id=session.scalar(ids.where(after).order_by(forwards).limit(1)),
+        next_open_id=session.scalar(still_open.order_by(after.desc(), forwards).limit(1)),
+        position=session.scalar(select(func.count(Image.id)).where(alive, Image.name <= image.name)) or 0,
+        total=session.scalar(select(func.count(Image.id)).where(alive)) or 0,
+    )

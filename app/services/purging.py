@@ -1,0 +1,146 @@
+"""Remove for good what was deleted, once the grace period is over, and the files that no row names any more."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+
+from sqlalchemy import delete, exists, select, text, update
+from sqlalchemy.orm import Session
+
+from app.db.models import Blob, Dataset, Decision, Image, Run, RunImage, Segment
+from app.db.session import Database
+from app.services.batches import in_batches
+from app.services.candidates import refresh_counts, verdict_of_segment
+from app.storage import BlobStore
+
+IMAGES_AT_ONCE = 100
+BLOBS_AT_ONCE = 1_000
+
+# a file without a row may belong to an upload that is still on its way to its row
+YOUNG = timedelta(hours=1)
+
+
+@dataclass(frozen=True)
+class Purged:
+    """How much is gone for good.
+
+    Attributes:
+        blobs: Files removed from the store.
+    """
+
+    datasets: int
+    images: int
+    runs: int
+    blobs: int
+
+
+def purge(database: Database, blobs: BlobStore, now: datetime, *, grace: timedelta) -> Purged:
+    """Remove what was deleted longer than the grace period ago; in short transactions, so that nobody waits long.
+
+    Args:
+        database: The database.
+        blobs: The store.
+        now: When.
+        grace: How long what was deleted can be restored.
+    """
+    deadline = now - grace
+    images = _purge_images(database, deadline)
+    runs = _purge_runs(database, deadline, now)
+    datasets = _purge_datasets(database, deadline)
+    files = _purge_blobs(database, blobs) + _purge_orphans(database, blobs, now)
+    blobs.discard_incoming(before=(now - YOUNG).timestamp())
+    return Purged(datasets, images, runs, files)
+
+
+def _purge_images(database: Database, deadline: datetime) -> int:
+    """Images deleted by themselves, and all images of deleted datasets."""
+    with database.read() as session:
+        over = select(Image.id).join(Dataset).where((Image.deleted_at <= deadline) | (Dataset.deleted_at <= deadline))
+        ids = session.scalars(over).all()
+    for batch in in_batches(ids, IMAGES_AT_ONCE):
+        with database.write() as session:
+            still_over = (
+                select(Image.id)
+                .join(Dataset)
+                .where(Image.id.in_(batch), (Image.deleted_at <= deadline) | (Dataset.deleted_at <= deadline))
+            )
+            session.execute(delete(Image).where(Image.id.in_(still_over)).execution_options(synchronize_session=False))
+    return len(ids)
+
+
+def _purge_runs(database: Database, deadline: datetime, now: datetime) -> int:
+    """A run takes its undecided candidates along; those with a history of decisions stay, retired."""
+    with database.read() as session:
+        ids = session.scalars(select(Run.id).where(Run.deleted_at <= deadline)).all()
+    for run_id in ids:
+        with database.write() as session:
+            run = session.scalars(select(Run).where(Run.id == run_id, Run.deleted_at <= deadline)).one_or_none()
+            if run is not None:
+                _purge_run(session, run, now)
+    return len(ids)
+
+
+def _purge_run(session: Session, run: Run, now: datetime) -> None:
+    of_run = Segment.run_image_id.in_(select(RunImage.id).where(RunImage.run_id == run.id))
+    decided_ever = exists().where(Decision.segment_id == Segment.id)
+    images = list(session.scalars(select(RunImage.image_id).where(RunImage.run_id == run.id)))
+    never = delete(Segment).where(of_run, ~decided_ever)
+    session.execute(never.execution_options(synchronize_session=False))
+    undecided = (
+        select(Segment.id)
+        .outerjoin(Segment.state)
+        .where(of_run, Segment.retired_at.is_(None), verdict_of_segment() == "undecided")
+    )
+    retire = update(Segment).where(Segment.id.in_(undecided)).values(retired_at=now)
+    session.execute(retire.execution_options(synchronize_session=False))
+    session.execute(delete(Run).where(Run.id == run.id))
+    for batch in in_batches(images):
+        refresh_counts(session, batch)
+
+
+def _purge_datasets(database: Database, deadline: datetime) -> int:
+    with database.write() as session:
+        ids = session.scalars(select(Dataset.id).where(Dataset.deleted_at <= deadline)).all()
+        session.execute(delete(Dataset).where(Dataset.id.in_(ids)))
+    return len(ids)
+
+
+def _purge_blobs(database: Database, blobs: BlobStore) -> int:
+    """Blobs that no image names."""
+    unused = ~exists().where(Image.sha256 == Blob.sha256)
+    removed = 0
+    while True:
+        with database.write() as session:
+            _keep_others_from_adding(session)
+            batch = session.scalars(select(Blob.sha256).where(unused).limit(BLOBS_AT_ONCE)).all()
+            session.execute(delete(Blob).where(Blob.sha256.in_(batch)))
+            removed += sum(blobs.delete(sha256) for sha256 in batch)
+        if len(batch) < BLOBS_AT_ONCE:
+            return removed
+
+
+def _purge_orphans(database: Database, blobs: BlobStore, now: datetime) -> int:
+    """Files without a row: what was received and then refused, as a second image of one name is."""
+    removed = 0
+    for batch in in_batches(list(_old_files(blobs, now)), BLOBS_AT_ONCE):
+        with database.write() as session:
+            _keep_others_from_adding(session)
+            known = set(session.scalars(select(Blob.sha256).where(Blob.sha256.in_(batch))))
+            removed += sum(blobs.delete(sha256) for sha256 in batch if sha256 not in known)
+    return removed
+
+
+def _old_files(blobs: BlobStore, now: datetime) -> Iterator[str]:
+    limit = (now - YOUNG).timestamp()
+    for path in blobs.root.glob("??/??/*"):
+        if re.fullmatch(r"[0-9a-f]{64}", path.name) and path.stat().st_mtime < limit:
+            yield path.name
+
+
+def _keep_others_from_adding(session: Session) -> None:
+    """Hold off whoever adds an image, from looking at the rows until the files are gone."""
+    if session.get_bind().dialect.name == "postgresql":  # SQLite lets only one write anyway
+        session.execute(text("LOCK TABLE blobs IN SHARE ROW EXCLUSIVE MODE"))

@@ -1,0 +1,185 @@
+"""What a scene is made of before it is seen: planar surfaces, straight edges and curves in street coordinates.
+
+Street coordinates: x right, y down, z forward, in m; the road is y = 0, so heights are negative y.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Points = NDArray[np.float64]
+Colours = NDArray[np.float32]
+Mode = Literal["paint", "shadow"]
+
+
+@dataclass(frozen=True, eq=False)
+class Texture:
+    """A picture on a plane in the street.
+
+    Attributes:
+        pixels: float32 ``(h, w)``: factors on the surface's colour; or ``(h, w, 4)``: red, green, blue (0..255) and
+            opacity (0..1) in place of it.
+        origin: Where the middle of the first texel lies, ``(3,)``.
+        across: Step in the street from one texel to the next in a row, ``(3,)``.
+        down: Step from one row to the next, ``(3,)``.
+    """
+
+    pixels: NDArray[np.float32]
+    origin: Points
+    across: Points
+    down: Points
+
+
+def texture_on(corners: Points, pixels: NDArray[np.float32]) -> Texture:
+    """Stretch a picture over a parallelogram: corners ``(4, 3)`` top left, top right, bottom right, bottom left."""
+    height, width = pixels.shape[:2]
+    across, down = (corners[1] - corners[0]) / width, (corners[3] - corners[0]) / height
+    return Texture(pixels, corners[0] + (across + down) / 2, across, down)
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """Convex planar polygons of one kind, painted in the order given.
+
+    Attributes:
+        corners: float64 ``(n, c, 3)``.
+        colours: float32 ``(n, 3)``, red, green, blue in 0..255.
+        textures: One for each polygon, or none.
+        opacity: 0..1.
+        margin: By how many px the polygons are drawn larger, so that a mesh of them has no seams.
+        mode: `shadow` polygons darken what lies below them, each place once.
+    """
+
+    corners: Points
+    colours: Colours
+    textures: Sequence[Texture | None] | None = None
+    opacity: float = 1.0
+    margin: float = 0.0
+    mode: Mode = "paint"
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """Straight edges that share corners ``(n, c, 3)``: from each corner to the next, each a line of its own."""
+
+    corners: Points
+    kind: str
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A visible edge that isn't straight in the street, as points ``(n, 3)``, and why it isn't."""
+
+    points: Points
+    reason: str
+
+
+@dataclass(eq=False)
+class Drawing:
+    """A growing list of surfaces, in painting order, with the edges and curves that bound them."""
+
+    batches: list[Batch] = field(default_factory=list)
+    chains: list[Chain] = field(default_factory=list)
+    curves: list[Curve] = field(default_factory=list)
+
+    def paint(
+        self,
+        corners: Points,
+        colours: ArrayLike,
+        *,
+        kind: str | None = None,
+        textures: Sequence[Texture | None] | None = None,
+        opacity: float = 1.0,
+        margin: float = 0.0,
+    ) -> None:
+        """Paint polygons ``(n, c, 3)`` or one ``(c, 3)``; with a kind, their outlines are straight edges."""
+        corners = np.asarray(corners, np.float64)
+        corners = corners[None] if corners.ndim == 2 else corners
+        if not len(corners):
+            return
+        colours = np.broadcast_to(np.asarray(colours, np.float32), (len(corners), 3))
+        self.batches.append(Batch(corners, colours, textures, opacity, margin, "paint"))
+        if kind is not None:
+            self.outline(corners, kind)
+
+    def shadow(self, polygons: Sequence[Points], factor: ArrayLike, kind: str | None = "shadow") -> None:
+        """Darken the union of planar polygons by a colour factor ``(3,)``; their outlines are straight edges."""
+        whole = [np.asarray(polygon, np.float64) for polygon in polygons if len(polygon) >= 3]
+        if not whole:
+            return
+        most = max(len(polygon) for polygon in whole)
+        # repeating the last corner makes the polygons of one length and changes no shape
+        padded = np.stack([np.concatenate([p, np.repeat(p[-1:], most - len(p), axis=0)]) for p in whole])
+        colours = np.broadcast_to(np.asarray(factor, np.float32), (len(padded), 3))
+        self.batches.append(Batch(padded, colours, mode="shadow"))
+        if kind is not None:
+            for polygon in whole:
+                self.outline(polygon[None], kind)
+
+    def outline(self, corners: Points, kind: str) -> None:
+        """Add the closed outlines of polygons ``(n, c, 3)`` as straight edges."""
+        self.chains.append(Chain(np.concatenate([corners, corners[:, :1]], axis=1), kind))
+
+    def lines(self, corners: Points, kind: str) -> None:
+        """Add open chains of straight edges, ``(n, c, 3)``."""
+        self.chains.append(Chain(np.asarray(corners, np.float64), kind))
+
+    def curve(self, points: Points, reason: str) -> None:
+        """Add a distractor: an edge that isn't straight, ``(n, 3)``."""
+        self.curves.append(Curve(np.asarray(points, np.float64), reason))
+
+    def extend(self, other: Drawing) -> None:
+        """Paint another drawing on top."""
+        self.batches.extend(other.batches)
+        self.chains.extend(other.chains)
+        self.curves.extend(other.curves)
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """An upright plane with coordinates of its own: u along it and v up from the ground, in m.
+
+    Attributes:
+        origin: Where u = v = 0 lies, ``(3,)``.
+        along: Unit vector of u, horizontal, ``(3,)``.
+        normal: Unit vector towards the street, ``(3,)``.
+    """
+
+    origin: Points
+    along: Points
+    normal: Points
+
+    def point(self, u: ArrayLike, v: ArrayLike, out: ArrayLike = 0.0) -> Points:
+        """The street point at (u, v), pushed out of the plane by `out` m; broadcasts to ``(..., 3)``."""
+        u, v, out = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float), np.asarray(out, float))
+        up = np.array([0.0, -1.0, 0.0])
+        return self.origin + u[..., None] * self.along + v[..., None] * up + out[..., None] * self.normal
+
+    def rectangles(self, boxes: ArrayLike, out: ArrayLike = 0.0) -> Points:
+        """Rectangles ``(n, 4)`` as u0, v0, u1, v1 to corners ``(n, 4, 3)``: (u0, v1), (u1, v1), (u1, v0), (u0, v0)."""
+        u0, v0, u1, v1 = np.atleast_2d(np.asarray(boxes, float)).T
+        return self.point(np.stack([u0, u1, u1, u0], 1), np.stack([v1, v1, v0, v0], 1), np.reshape(out, (-1, 1)))
+
+    def locate(self, point: Points) -> Points:
+        """The u, v and distance from the plane of a street point ``(3,)``."""
+        offset = point - self.origin
+        return np.array([offset @ self.along, -offset[1], offset @ self.normal])
+
+
+def clip_convex(polygon: Points, normal: Points, offset: float) -> Points:
+    """The part of a convex polygon ``(c, 3)`` where ``normal . p >= offset`` (Sutherland and Hodgman 1974)."""
+    if not len(polygon):
+        return polygon
+    height = polygon @ normal - offset
+    kept: list[Points] = []
+    for here, there, a, b in zip(polygon, np.roll(polygon, -1, 0), height, np.roll(height, -1), strict=True):
+        if a >= 0:
+            kept.append(here)
+        if (a >= 0) != (b >= 0):
+            kept.append(here + (there - here) * (a / (a - b)))
+    return np.array(kept) if len(kept) >= 3 else np.zeros((0, 3))

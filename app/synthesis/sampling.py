@@ -1,0 +1,119 @@
+"""Samples about every px along edges of the street, as the lens shows them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.synthesis.projection import NEAR, View
+from app.synthesis.sensor import LensMap
+
+_NODES = 33
+_RIM = 2.0  # px of the ideal picture in which nothing is asked
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Samples in order along edges, those of one edge together.
+
+    Attributes:
+        points: In the photo, float64 ``(n, 2)`` px.
+        places: In the ideal picture, float64 ``(n, 2)`` px.
+        inverse_depths: float64 ``(n,)`` 1/m.
+        owners: The edge each belongs to, int64 ``(n,)``.
+    """
+
+    points: NDArray[np.float64]
+    places: NDArray[np.float64]
+    inverse_depths: NDArray[np.float64]
+    owners: NDArray[np.int64]
+
+
+def sample_edges(
+    starts: NDArray[np.float64], ends: NDArray[np.float64], view: View, lens_map: LensMap, shortest: float
+) -> Samples:
+    """Sample straight edges ``(n, 3)`` to ``(n, 3)`` about every px of the photo.
+
+    What lies outside the ideal picture is cut off first; of what is left, edges shorter than `shortest` px are left
+    out.
+    """
+    rays_a, rays_b, depth_a, depth_b, owners = _clip(starts, ends, view)
+    # in the ideal picture a line stays a line and its inverse depth is linear along it
+    along = np.linspace(0, 1, _NODES)
+    nodes = lens_map.lens.to_pixels(_blend(rays_a[:, None], rays_b[:, None], along[None, :, None]))
+    lengths = np.linalg.norm(np.diff(nodes, axis=1), axis=-1)
+    arcs = np.concatenate([np.zeros((len(nodes), 1)), np.cumsum(lengths, axis=1)], axis=1)
+    long = arcs[:, -1] >= shortest
+    rays_a, rays_b, depth_a, depth_b, arcs = (values[long] for values in (rays_a, rays_b, depth_a, depth_b, arcs))
+    owners = owners[long]
+    total = arcs[:, -1]
+    counts = np.maximum(np.rint(total).astype(np.int64), 1) + 1
+    row = np.repeat(np.arange(len(counts)), counts)
+    position = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    wanted = position / (counts[row] - 1) * total[row]
+    # one interpolation for all edges: each one's arcs are lifted above those of the one before
+    lift = np.cumsum(total + 1) - (total + 1)
+    nodes_at = along + 2.0 * np.arange(len(arcs))[:, None]
+    share = np.interp(wanted + lift[row], (arcs + lift[:, None]).ravel(), nodes_at.ravel()) if len(arcs) else wanted
+    share = (share - 2.0 * row).clip(0, 1)
+    rays = _blend(rays_a[row], rays_b[row], share[:, None])
+    return Samples(
+        points=lens_map.lens.to_pixels(rays),
+        places=rays * view.matrix[[0, 1], [0, 1]] + view.matrix[:2, 2],
+        inverse_depths=_blend(depth_a[row], depth_b[row], share),
+        owners=owners[row],
+    )
+
+
+def _blend(a: NDArray[np.float64], b: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[np.float64]:
+    return a * (1 - share) + b * share
+
+
+def _clip(
+    starts: NDArray[np.float64], ends: NDArray[np.float64], view: View
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
+    """Cut edges to the view (Liang and Barsky 1984): rays and inverse depths at both ends, and whose they are."""
+    a, b = view.pose.to_camera(starts), view.pose.to_camera(ends)
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    inverse = np.linalg.inv(view.matrix)
+    left, top = (inverse @ [_RIM, _RIM, 1])[:2]
+    right, bottom = (inverse @ [view.width - 1 - _RIM, view.height - 1 - _RIM, 1])[:2]
+    # the planes that bound what is seen, each as a value that is positive inside
+    bounds = (
+        ([0, 0, 1], -NEAR),
+        ([1, 0, -left], 0.0),
+        ([-1, 0, right], 0.0),
+        ([0, 1, -top], 0.0),
+        ([0, -1, bottom], 0.0),
+    )
+    for plane, offset in bounds:
+        at_a, at_b = a @ np.array(plane, float) + offset, b @ np.array(plane, float) + offset
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cut = at_a / (at_a - at_b)
+        low = np.where((at_a < 0) & (at_b >= 0), np.maximum(low, cut), low)
+        high = np.where((at_a >= 0) & (at_b < 0), np.minimum(high, cut), high)
+        high = np.where((at_a < 0) & (at_b < 0), -1.0, high)
+    inside = high > low
+    a, b, low, high = a[inside], b[inside], low[inside, None], high[inside, None]
+    first, last = _blend(a, b, low), _blend(a, b, high)
+    return (
+        first[:, :2] / first[:, 2:],
+        last[:, :2] / last[:, 2:],
+        1 / first[:, 2],
+        1 / last[:, 2],
+        np.flatnonzero(inside),
+    )
+
+
+def across(points: NDArray[np.float64], owners: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Unit normals along edges, ``(n, 2)``, from the neighbours of the same edge."""
+    if len(points) < 2:
+        return np.zeros_like(points)
+    ahead, behind = np.roll(points, -1, axis=0), np.roll(points, 1, axis=0)
+    ahead = np.where((np.roll(owners, -1) == owners)[:, None], ahead, points)
+    behind = np.where((np.roll(owners, 1) == owners)[:, None], behind, points)
+    step = ahead - behind
+    step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
+    return np.stack([-step[:, 1], step[:, 0]], axis=1)

@@ -1,0 +1,101 @@
+"""Which samples of an edge can be seen: not hidden, and with a step of grey across."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.synthesis.rasteriser import Picture
+
+LEAST_STEP = 8.0  # grey levels
+_ASIDE = 1.5  # px of the ideal picture
+_SAME_DEPTH = 0.012  # relative
+_SHARE_OF_STEP = 0.75  # of a blurred step that lies within 0.75 px of it
+_RIVAL = 0.85  # of the rise 0.75 px beside the edge
+
+
+def unhidden(
+    picture: Picture,
+    places: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    inverse_depths: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """Which samples nothing stands in front of.
+
+    Looks at the surfaces on both sides and asks how deep each, continued to the sample itself, lies there: for the
+    surfaces that meet in the edge that is its own depth whatever their slant, for one in front it is less.
+
+    Args:
+        picture: The ideal picture with its surfaces.
+        places: Samples in the ideal picture, ``(n, 2)`` px.
+        normals: Unit vectors across the edge there, ``(n, 2)``.
+        inverse_depths: Of the samples, ``(n,)`` 1/m.
+    """
+    height, width = picture.surface.shape
+    clear = np.ones(len(places), np.bool_)
+    owned = np.zeros(len(places), np.bool_)
+    for side in (-_ASIDE, _ASIDE):
+        at = np.rint(places + side * normals).astype(np.int64)
+        inside = (at >= 0).all(axis=1) & (at[:, 0] < width) & (at[:, 1] < height)
+        at = at.clip(0, [width - 1, height - 1])
+        planes = picture.planes[picture.surface[at[:, 1], at[:, 0]]]
+        here = planes[:, 0] * places[:, 0] + planes[:, 1] * places[:, 1] + planes[:, 2]
+        clear &= inside & (here <= inverse_depths * (1 + _SAME_DEPTH))
+        owned |= np.abs(here - inverse_depths) <= inverse_depths * _SAME_DEPTH
+    return clear & owned
+
+
+def contrasting(
+    grey: NDArray[np.float32],
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    owners: NDArray[np.int64],
+) -> NDArray[np.bool_]:
+    """Which samples have a step of at least `LEAST_STEP` across, and the steepest place at the edge itself.
+
+    An edge beside a stronger one, or one side of something thinner than the blur, has its steepest place elsewhere:
+    no detector could find it where it truly is, so it isn't a label.
+
+    Args:
+        grey: The photo without noise, float32 ``(H, W)``.
+        points: Samples in px, ``(n, 2)``, in order along each edge.
+        normals: Unit vectors across the edge there, ``(n, 2)``.
+        owners: The edge each sample belongs to, ``(n,)``.
+    """
+    offsets = np.array([-1.25, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.25])
+    at = points[:, None] + offsets[None, :, None] * normals[:, None]
+    values = _smooth_along(_sample(grey, at), owners)
+    step = values[:, 6] - values[:, 1]
+    sign = np.sign(step)
+    here, before, behind = (sign * (values[:, high] - values[:, low]) for low, high in ((2, 5), (0, 3), (4, 7)))
+    strong = np.abs(step) >= LEAST_STEP * _SHARE_OF_STEP
+    return strong & (here > 0) & (here >= _RIVAL * np.maximum(before, behind))
+
+
+def _sample(grey: NDArray[np.float32], at: NDArray[np.float64]) -> NDArray[np.float32]:
+    # cv2.remap takes maps of at most 32767 rows and columns
+    columns, flat = 1024, at.reshape(-1, 2).astype(np.float32)
+    rows = -(-len(flat) // columns)
+    padded = np.zeros((rows * columns, 2), np.float32)
+    padded[: len(flat)] = flat
+    x, y = (padded[:, axis].reshape(rows, columns) for axis in range(2))
+    taken = np.empty((rows, columns), np.float32)
+    for first in range(0, rows, 16384):
+        block = np.s_[first : first + 16384]
+        taken[block] = cv2.remap(grey, x[block], y[block], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return taken.reshape(-1)[: len(flat)].reshape(at.shape[:-1])
+
+
+def _smooth_along(values: NDArray[np.float32], owners: NDArray[np.int64], reach: int = 3) -> NDArray[np.float32]:
+    """Mean over up to `reach` samples on both sides along the same edge: texture is not contrast."""
+    total = np.zeros_like(values)
+    count = np.zeros((len(values), 1), np.float32)
+    for shift in range(-reach, reach + 1):
+        low, high = max(0, -shift), min(len(values), len(values) - shift)
+        if high <= low:
+            continue
+        same = (owners[low:high] == owners[low + shift : high + shift])[:, None].astype(np.float32)
+        total[low:high] += same * values[low + shift : high + shift]
+        count[low:high] += same
+    return total / count

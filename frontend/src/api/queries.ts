@@ -1,0 +1,40 @@
+/** Query keys in one place, so that a change can tell exactly which answers are out of date. */
+
+import { QueryClient, queryOptions } from "@tanstack/react-query";
+import * as api from "./endpoints";
+import { RequestFailed } from "./problem";
+
+export const keys = {
+  configuration: ["configuration"] as const,
+  datasets: ["datasets"] as const,
+  dataset: (slug: string) => ["datasets", slug] as const,
+  images: (slug: string) => ["datasets", slug, "images"] as const,
+  facets: (slug: string) => ["datasets", slug, "facets"] as const,
+  runs: (slug: string) => ["datasets", slug, "runs"] as const,
+  cameras: (slug: string) => ["datasets", slug, "cameras"] as const,
+  image: (id: number) => ["images", id] as const,
+};
+
+export const configurationQuery = queryOptions({
+  queryKey: keys.configuration,
+  queryFn: api.getConfiguration,
+  staleTime: Number.POSITIVE_INFINITY,
+});
+
+export const datasetQuery = (slug: string) =>
+  queryOptions({ queryKey: keys.dataset(slug), queryFn: () => api.getDataset(slug) });
+
+export const imageQuery = (id: number) =>
+  queryOptions({ queryKey: keys.image(id), queryFn: () => api.getImage(id) });
+
+export function makeQueryClient(): QueryClient {
+  return new QueryClient({
+    defaultOptions: {
+      queries: {
+        staleTime: 2_000,
+        retry: (failures, error) => error instanceof RequestFailed && error.temporary && failures < 2,
+      },
+      mutations: { retry: false },
+    },
+  });
+}

@@ -1,0 +1,42 @@
+/**
+ * The shapes the server answers with, under the names the pages use.
+ *
+ * `schema.ts` is generated from the server's OpenAPI (`npm run types`). Times are ISO-8601 in UTC; lengths and
+ * coordinates are in px.
+ */
+
+import type { components } from "./schema";
+
+type Schemas = components["schemas"];
+
+export type Problem = Omit<Schemas["Problem"], "type" | "details"> &
+  Partial<Pick<Schemas["Problem"], "type" | "details">>;
+/** What went wrong with one file or one image; a problem without a status of its own. */
+export type ErrorInfo = Schemas["ErrorInfo"];
+
+export type Configuration = Schemas["Configuration"];
+export type Dataset = Schemas["DatasetAnswer"];
+export type ImageSummary = Schemas["ImageSummary"];
+export type ImageDetail = Schemas["ImageDetail"];
+export type ImagePage = Schemas["ImagePage"];
+export type UploadReport = Schemas["UploadReport"];
+export type Facets = Schemas["Facets"];
+export type Camera = Schemas["CameraAnswer"];
+export type Deleted = Schemas["Deleted"];
+
+export type Run = Schemas["RunAnswer"];
+export type RunSummary = Schemas["RunBrief"];
+export type RunImage = Schemas["RunImageAnswer"];
+export type RunChanges = Schemas["RunChanges"];
+
+export type ImageSegments = Schemas["SegmentsAnswer"];
+export type SegmentFacts = Schemas["SegmentAnswer"];
+export type StoredDecision = Schemas["DecisionAnswer"];
+export type NewDecision = Schemas["DecisionGiven"];
+export type DecisionsStored = Schemas["DecisionsStored"];
+
+export type Verdict = SegmentFacts["verdict"];
+export type VerdictCounts = Schemas["VerdictCounts"];
+export type DecisionKind = StoredDecision["kind"];
+export type ReviewStatus = ImageSummary["status"];
+export type PrelabelStatus = ImageSummary["prelabel"];

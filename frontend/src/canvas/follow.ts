@@ -1,0 +1,37 @@
+/** Where the view goes when a candidate is selected by key. */
+
+import { type Box, boxCentre, boxContains, boxExtent, clamp } from "./geometry";
+import { centreOn, MAX_SCALE, type Size, type Viewport, visibleBox } from "./viewport";
+
+/** Shorter than this on the screen, a candidate can't be judged (px). */
+const READABLE = 24;
+/** What a candidate is enlarged to when it is too small (px). */
+const COMFORTABLE = 140;
+/** Free space around the candidate for it to count as seen, as a share of the screen. */
+const EDGE = 0.04;
+
+/**
+ * The viewport that shows a box: the same one where the box is on the screen and large enough, else moved,
+ * and scaled only as far as needed.
+ */
+export function follow(viewport: Viewport, box: Box, screen: Size): Viewport {
+  const extent = Math.max(boxExtent(box), 1);
+  const onScreen = extent * viewport.scale;
+  const roomX = screen.width * (1 - 2 * EDGE);
+  const roomY = screen.height * (1 - 2 * EDGE);
+  const largest = Math.min(
+    roomX / Math.max(box.maxX - box.minX, 1),
+    roomY / Math.max(box.maxY - box.minY, 1),
+    MAX_SCALE,
+  );
+  const tiny = onScreen < READABLE;
+  if (!tiny && boxContains(shrunk(visibleBox(viewport, screen)), box)) return viewport;
+  const wanted = tiny ? COMFORTABLE / extent : viewport.scale;
+  return centreOn(boxCentre(box), clamp(wanted, 1e-3, largest), screen);
+}
+
+function shrunk(box: Box): Box {
+  const dx = (box.maxX - box.minX) * EDGE;
+  const dy = (box.maxY - box.minY) * EDGE;
+  return { minX: box.minX + dx, minY: box.minY + dy, maxX: box.maxX - dx, maxY: box.maxY - dy };
+}

@@ -1,0 +1,116 @@
+/**
+ * Plane geometry on packed coordinates.
+ *
+ * A coordinate array holds x0, y0, x1, y1, ... in image px: x right, y down, the centre of the top left
+ * pixel at (0, 0).
+ */
+
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+export interface Box {
+  readonly minX: number;
+  readonly minY: number;
+  readonly maxX: number;
+  readonly maxY: number;
+}
+
+/** Squared distance of (px, py) to the line piece from (ax, ay) to (bx, by). */
+export function squaredDistanceToPiece(
+  px: number,
+  py: number,
+  ax: number,
+  ay: number,
+  bx: number,
+  by: number,
+): number {
+  const dx = bx - ax;
+  const dy = by - ay;
+  const square = dx * dx + dy * dy;
+  const along = square === 0 ? 0 : ((px - ax) * dx + (py - ay) * dy) / square;
+  const t = clamp(along, 0, 1);
+  const ex = px - (ax + t * dx);
+  const ey = py - (ay + t * dy);
+  return ex * ex + ey * ey;
+}
+
+/** Distance in px of a position to the polyline of the points first..end - 1. */
+export function distanceToPolyline(
+  coordinates: Float32Array,
+  first: number,
+  end: number,
+  x: number,
+  y: number,
+): number {
+  if (end - first === 1) {
+    return Math.hypot(x - at(coordinates, 2 * first), y - at(coordinates, 2 * first + 1));
+  }
+  let best = Number.POSITIVE_INFINITY;
+  for (let i = first; i + 1 < end; i++) {
+    const square = squaredDistanceToPiece(
+      x,
+      y,
+      at(coordinates, 2 * i),
+      at(coordinates, 2 * i + 1),
+      at(coordinates, 2 * i + 2),
+      at(coordinates, 2 * i + 3),
+    );
+    if (square < best) best = square;
+  }
+  return Math.sqrt(best);
+}
+
+/** The smallest box around the points first..end - 1. */
+export function boxOf(coordinates: Float32Array, first: number, end: number): Box {
+  let minX = Number.POSITIVE_INFINITY;
+  let minY = Number.POSITIVE_INFINITY;
+  let maxX = Number.NEGATIVE_INFINITY;
+  let maxY = Number.NEGATIVE_INFINITY;
+  for (let i = first; i < end; i++) {
+    const x = at(coordinates, 2 * i);
+    const y = at(coordinates, 2 * i + 1);
+    if (x < minX) minX = x;
+    if (x > maxX) maxX = x;
+    if (y < minY) minY = y;
+    if (y > maxY) maxY = y;
+  }
+  return { minX, minY, maxX, maxY };
+}
+
+export function boxCentre(box: Box): Point {
+  return { x: (box.minX + box.maxX) / 2, y: (box.minY + box.maxY) / 2 };
+}
+
+/** The longer side of a box. */
+export function boxExtent(box: Box): number {
+  return Math.max(box.maxX - box.minX, box.maxY - box.minY);
+}
+
+export function growBox(box: Box, margin: number): Box {
+  return {
+    minX: box.minX - margin,
+    minY: box.minY - margin,
+    maxX: box.maxX + margin,
+    maxY: box.maxY + margin,
+  };
+}
+
+export function boxContains(outer: Box, inner: Box): boolean {
+  return (
+    inner.minX >= outer.minX &&
+    inner.minY >= outer.minY &&
+    inner.maxX <= outer.maxX &&
+    inner.maxY <= outer.maxY
+  );
+}
+
+export function clamp(value: number, low: number, high: number): number {
+  return Math.min(Math.max(value, low), high);
+}
+
+/** An array element whose index the caller has bounded. */
+export function at(values: ArrayLike<number>, index: number): number {
+  return values[index] as number;
+}

@@ -1,0 +1,96 @@
+/** Wheel, drag, pinch, hover and click on an element, as what they mean for a view. */
+
+import type { Point } from "./geometry";
+
+export interface GestureTarget {
+  zoom(at: Point, factor: number): void;
+  pan(dx: number, dy: number): void;
+  /** The pointer rests or moves above the element without a button; null when it leaves. */
+  hover(at: Point | null): void;
+  click(at: Point, touch: boolean): void;
+}
+
+/** Movement below this is a click with an unsteady hand (px). */
+const CLICK_SLACK = 4;
+/** Zoom per wheel px; a notch of a mouse is about 100. */
+const WHEEL_SPEED = 0.0016;
+/** Trackpads send a pinch as a wheel with Ctrl, in much smaller steps. */
+const PINCH_SPEED = 0.01;
+const LINE_HEIGHT = 16;
+
+interface Finger {
+  start: Point;
+  last: Point;
+  moved: boolean;
+}
+
+/** Listens on the element until the returned function is called. */
+export function listenToGestures(element: HTMLElement, target: GestureTarget): () => void {
+  const fingers = new Map<number, Finger>();
+  const controller = new AbortController();
+  const options = { signal: controller.signal };
+
+  function place(event: MouseEvent): Point {
+    const box = element.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  function onWheel(event: WheelEvent): void {
+    event.preventDefault();
+    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_HEIGHT : 1;
+    if (event.shiftKey && !event.ctrlKey) {
+      target.pan(-(event.deltaX + event.deltaY) * unit, 0);
+      return;
+    }
+    const speed = event.ctrlKey ? PINCH_SPEED : WHEEL_SPEED;
+    target.zoom(place(event), Math.exp(-event.deltaY * unit * speed));
+    if (event.deltaX !== 0 && !event.ctrlKey) target.pan(-event.deltaX * unit, 0);
+  }
+
+  function onDown(event: PointerEvent): void {
+    if (event.button !== 0 && event.button !== 1) return;
+    element.setPointerCapture(event.pointerId);
+    const at = place(event);
+    fingers.set(event.pointerId, { start: at, last: at, moved: false });
+  }
+
+  function onMove(event: PointerEvent): void {
+    const at = place(event);
+    const finger = fingers.get(event.pointerId);
+    if (finger === undefined) {
+      if (event.pointerType !== "touch") target.hover(at);
+      return;
+    }
+    if (!finger.moved && Math.hypot(at.x - finger.start.x, at.y - finger.start.y) < CLICK_SLACK) return;
+    finger.moved = true;
+    const other = [...fingers.values()].find((candidate) => candidate !== finger);
+    if (other === undefined) target.pan(at.x - finger.last.x, at.y - finger.last.y);
+    else pinch(finger.last, at, other.last);
+    finger.last = at;
+    element.classList.add("is-dragging");
+  }
+
+  function pinch(from: Point, to: Point, fixed: Point): void {
+    const before = Math.hypot(from.x - fixed.x, from.y - fixed.y);
+    const after = Math.hypot(to.x - fixed.x, to.y - fixed.y);
+    target.pan((to.x - from.x) / 2, (to.y - from.y) / 2);
+    if (before > 0) target.zoom({ x: (to.x + fixed.x) / 2, y: (to.y + fixed.y) / 2 }, after / before);
+  }
+
+  function onUp(event: PointerEvent): void {
+    const finger = fingers.get(event.pointerId);
+    fingers.delete(event.pointerId);
+    if (fingers.size === 0) element.classList.remove("is-dragging");
+    if (finger && !finger.moved && event.type === "pointerup" && event.button === 0) {
+      target.click(place(event), event.pointerType === "touch");
+    }
+  }
+
+  element.addEventListener("wheel", onWheel, { ...options, passive: false });
+  element.addEventListener("pointerdown", onDown, options);
+  element.addEventListener("pointermove", onMove, options);
+  element.addEventListener("pointerup", onUp, options);
+  element.addEventListener("pointercancel", onUp, options);
+  element.addEventListener("pointerleave", () => target.hover(null), options);
+  return () => controller.abort();
+}

@@ -1,0 +1,97 @@
+/** The selected and the hovered candidate, above all others. */
+
+import { at } from "../geometry";
+import type { Scene } from "../scene";
+import { HOVER, lineStyle, SELECTION, styleName } from "../style";
+import { toScreen, type Viewport } from "../viewport";
+import type { CandidateLook } from "./candidate_layer";
+import { tracePolyline } from "./surface";
+
+export function drawHighlights(
+  context: CanvasRenderingContext2D,
+  scene: Scene,
+  look: CandidateLook,
+  viewport: Viewport,
+  selected: number | null,
+  hovered: number | null,
+): void {
+  if (hovered !== null && hovered !== selected) drawHovered(context, scene, look, viewport, hovered);
+  if (selected !== null) drawSelected(context, scene, look, viewport, selected);
+}
+
+function drawHovered(
+  context: CanvasRenderingContext2D,
+  scene: Scene,
+  look: CandidateLook,
+  viewport: Viewport,
+  index: number,
+): void {
+  const path = pathOf(scene, viewport, index);
+  const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
+  stroke(context, path, HOVER.halo, style.width + 5);
+  stroke(context, path, SELECTION.casing, style.width + 2);
+  stroke(context, path, style.colour, style.width + 0.6, style.dash);
+}
+
+function drawSelected(
+  context: CanvasRenderingContext2D,
+  scene: Scene,
+  look: CandidateLook,
+  viewport: Viewport,
+  index: number,
+): void {
+  const path = pathOf(scene, viewport, index);
+  const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
+  stroke(context, path, SELECTION.casing, SELECTION.width + 9);
+  stroke(context, path, SELECTION.halo, SELECTION.width + 5.6);
+  stroke(context, path, SELECTION.casing, SELECTION.width + 1.8);
+  stroke(context, path, style.colour, SELECTION.width, style.dash);
+  drawEnds(context, scene, viewport, index, style.colour);
+}
+
+function drawEnds(
+  context: CanvasRenderingContext2D,
+  scene: Scene,
+  viewport: Viewport,
+  index: number,
+  colour: string,
+): void {
+  const { coordinates, offsets } = scene.polylines;
+  for (const point of [at(offsets, index), at(offsets, index + 1) - 1]) {
+    const { x, y } = toScreen(viewport, at(coordinates, 2 * point), at(coordinates, 2 * point + 1));
+    context.beginPath();
+    context.arc(x, y, 5.5, 0, 2 * Math.PI);
+    context.fillStyle = SELECTION.casing;
+    context.fill();
+    context.beginPath();
+    context.arc(x, y, 4.4, 0, 2 * Math.PI);
+    context.fillStyle = SELECTION.halo;
+    context.fill();
+    context.beginPath();
+    context.arc(x, y, 2.4, 0, 2 * Math.PI);
+    context.fillStyle = colour;
+    context.fill();
+  }
+}
+
+function pathOf(scene: Scene, viewport: Viewport, index: number): Path2D {
+  const { offsets, coordinates } = scene.atScale(viewport.scale);
+  const path = new Path2D();
+  tracePolyline(path, coordinates, at(offsets, index), at(offsets, index + 1), viewport);
+  return path;
+}
+
+function stroke(
+  context: CanvasRenderingContext2D,
+  path: Path2D,
+  colour: string,
+  width: number,
+  dash: readonly number[] = [],
+): void {
+  context.lineJoin = "round";
+  context.lineCap = dash.length > 0 ? "butt" : "round";
+  context.setLineDash([...dash]);
+  context.lineWidth = width;
+  context.strokeStyle = colour;
+  context.stroke(path);
+}

@@ -1,0 +1,55 @@
+/** A canvas that has as many pixels as the screen shows of it. */
+
+import type { Size, Viewport } from "../viewport";
+
+export interface Surface {
+  readonly canvas: HTMLCanvasElement;
+  readonly context: CanvasRenderingContext2D;
+}
+
+export function makeSurface(canvas: HTMLCanvasElement): Surface {
+  const context = canvas.getContext("2d");
+  if (context === null) throw new Error("This browser gives no 2D canvas.");
+  return { canvas, context };
+}
+
+/** @param margin Canvas px beyond the screen on each side. */
+export function resizeSurface({ canvas }: Surface, screen: Size, ratio: number, margin = 0): void {
+  const width = Math.max(1, Math.round(screen.width * ratio) + 2 * margin);
+  const height = Math.max(1, Math.round(screen.height * ratio) + 2 * margin);
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+}
+
+export function clearSurface({ canvas, context }: Surface): void {
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+}
+
+/** Lets the context draw in CSS px of the screen. */
+export function setScreenUnits({ context }: Surface, ratio: number, margin = 0): void {
+  context.setTransform(ratio, 0, 0, ratio, margin, margin);
+}
+
+/** Adds one polyline in image px to a path in screen px. */
+export function tracePolyline(
+  path: Path2D | CanvasRenderingContext2D,
+  coordinates: Float32Array,
+  first: number,
+  end: number,
+  viewport: Viewport,
+): void {
+  const { scale } = viewport;
+  const shiftX = viewport.offsetX + 0.5 * scale;
+  const shiftY = viewport.offsetY + 0.5 * scale;
+  path.moveTo(
+    (coordinates[2 * first] as number) * scale + shiftX,
+    (coordinates[2 * first + 1] as number) * scale + shiftY,
+  );
+  for (let i = first + 1; i < end; i++) {
+    path.lineTo(
+      (coordinates[2 * i] as number) * scale + shiftX,
+      (coordinates[2 * i + 1] as number) * scale + shiftY,
+    );
+  }
+}

@@ -1,0 +1,153 @@
+/**
+ * Draws the image and its candidates on three canvases, at most once per display frame.
+ *
+ * What changed decides what is drawn: a hover touches only the highlights; a movement copies the candidates'
+ * bitmap; a verdict redraws the bitmap along its line; the end of a movement draws the bitmap anew, a tile per
+ * frame.
+ */
+
+import { CandidateBitmap } from "./layers/candidate_bitmap";
+import type { CandidateLook } from "./layers/candidate_layer";
+import { drawHighlights } from "./layers/highlight_layer";
+import { drawImageLayer } from "./layers/image_layer";
+import { clearSurface, makeSurface, resizeSurface, type Surface, setScreenUnits } from "./layers/surface";
+import { EMPTY_SCENE, type Scene } from "./scene";
+import type { Size, Viewport } from "./viewport";
+
+/** How long the view must rest before the candidates are drawn exactly (ms). */
+const REST = 90;
+/** Beyond this many changed candidates all are drawn anew. */
+const MOST_REDRAWN = 24;
+
+export interface RendererState {
+  readonly image: CanvasImageSource | null;
+  readonly imageSize: Size;
+  readonly scene: Scene;
+  readonly look: CandidateLook;
+  readonly viewport: Viewport;
+  readonly selected: number | null;
+  readonly hovered: number | null;
+}
+
+/** The parts of the picture that a change touches. */
+export type Change = "view" | "image" | "scene" | "candidates" | "highlights";
+
+const START: RendererState = {
+  image: null,
+  imageSize: { width: 1, height: 1 },
+  scene: EMPTY_SCENE,
+  look: { verdict: () => "undecided", bent: () => false, visible: () => true },
+  viewport: { scale: 1, offsetX: 0, offsetY: 0 },
+  selected: null,
+  hovered: null,
+};
+
+export class Renderer {
+  private state: RendererState = START;
+  private screen: Size = { width: 1, height: 1 };
+  private ratio = 1;
+  private frame: number | null = null;
+  private restTimer: ReturnType<typeof setTimeout> | null = null;
+  private readonly changed = new Set<Change>();
+  private readonly changedCandidates = new Set<number>();
+  private readonly bitmap = new CandidateBitmap();
+  private readonly imageSurface: Surface;
+  private readonly candidateSurface: Surface;
+  private readonly highlightSurface: Surface;
+
+  constructor(image: HTMLCanvasElement, candidates: HTMLCanvasElement, highlights: HTMLCanvasElement) {
+    this.imageSurface = makeSurface(image);
+    this.candidateSurface = makeSurface(candidates);
+    this.highlightSurface = makeSurface(highlights);
+  }
+
+  update(part: Partial<RendererState>, ...changes: Change[]): void {
+    this.state = { ...this.state, ...part };
+    for (const change of changes) this.changed.add(change);
+    this.schedule();
+  }
+
+  /** Another look for some candidates only. */
+  updateLook(look: CandidateLook, indices: readonly number[]): void {
+    for (const index of indices) this.changedCandidates.add(index);
+    this.update({ look }, "highlights");
+  }
+
+  resize(screen: Size, ratio: number): void {
+    this.screen = screen;
+    this.ratio = ratio;
+    for (const surface of [this.imageSurface, this.candidateSurface, this.highlightSurface]) {
+      resizeSurface(surface, screen, ratio);
+    }
+    this.update({}, "view", "image", "highlights");
+    // A resized canvas is empty until it is drawn: waiting for the next frame would show a flash.
+    this.draw();
+  }
+
+  stop(): void {
+    if (this.frame !== null) cancelAnimationFrame(this.frame);
+    if (this.restTimer !== null) clearTimeout(this.restTimer);
+    this.frame = null;
+    this.restTimer = null;
+  }
+
+  private schedule(): void {
+    this.frame ??= requestAnimationFrame(() => this.draw());
+  }
+
+  private draw(): void {
+    if (this.frame !== null) cancelAnimationFrame(this.frame);
+    this.frame = null;
+    const { image, imageSize, viewport } = this.state;
+    const changed = new Set(this.changed);
+    this.changed.clear();
+    if (changed.has("view") || changed.has("image")) {
+      drawImageLayer(this.imageSurface, image, imageSize, viewport, this.ratio);
+    }
+    if (this.drawCandidates(changed)) this.bitmap.copyTo(this.candidateSurface, viewport, this.ratio);
+    this.drawHighlights();
+    if (this.bitmap.drawing) this.schedule();
+  }
+
+  /** Brings the bitmap up to date as far as one frame allows; true where the screen has to follow. */
+  private drawCandidates(changed: ReadonlySet<Change>): boolean {
+    const { scene, look, viewport } = this.state;
+    const moved = changed.has("view");
+    if (moved) this.drawAfterRest();
+    if (changed.has("scene")) this.bitmap.reset();
+    const redrawn = this.redrawChanged();
+    const anew = changed.has("scene") || changed.has("candidates") || redrawn === "too many";
+    if (anew) this.bitmap.start(scene, viewport, this.screen, this.ratio);
+    const drawing = this.bitmap.drawing;
+    if (drawing) this.bitmap.drawTile(scene, look);
+    return moved || anew || drawing || redrawn === "redrawn";
+  }
+
+  private redrawChanged(): "nothing" | "redrawn" | "too many" {
+    const { scene, look } = this.state;
+    const indices = [...this.changedCandidates];
+    this.changedCandidates.clear();
+    if (indices.length === 0) return "nothing";
+    // A drawing under way may have passed these candidates already.
+    if (indices.length > MOST_REDRAWN) return "too many";
+    this.bitmap.redraw(indices, scene, look);
+    if (this.bitmap.drawing) this.changed.add("candidates");
+    return "redrawn";
+  }
+
+  private drawAfterRest(): void {
+    this.bitmap.cancel();
+    if (this.restTimer !== null) clearTimeout(this.restTimer);
+    this.restTimer = setTimeout(() => {
+      this.restTimer = null;
+      this.update({}, "candidates");
+    }, REST);
+  }
+
+  private drawHighlights(): void {
+    const { scene, look, viewport, selected, hovered } = this.state;
+    clearSurface(this.highlightSurface);
+    setScreenUnits(this.highlightSurface, this.ratio);
+    drawHighlights(this.highlightSurface.context, scene, look, viewport, selected, hovered);
+  }
+}

@@ -1,0 +1,101 @@
+import { describe, expect, it } from "vitest";
+import type { DecisionKind, Verdict } from "../api/types";
+import { asRecorded, NO_HISTORY, pushed, rebuildHistory, redone, undone } from "./history";
+
+const group = (id: string) => ({ id, changes: [{ segmentId: 1, from: "undecided", to: "keep" }] }) as const;
+const ids = (groups: readonly { id: string }[]) => groups.map(({ id }) => id);
+const all = () => true;
+
+function recorded(kind: DecisionKind, groupId: string, segment: number, target: string | null = null) {
+  const [previous, verdict]: Verdict[] = kind === "undo" ? ["keep", "undecided"] : ["undecided", "keep"];
+  return {
+    kind,
+    group_id: groupId,
+    target_group_id: target,
+    segment_id: segment,
+    previous: previous as Verdict,
+    verdict: verdict as Verdict,
+  };
+}
+
+describe("history", () => {
+  it("goes back and forth", () => {
+    let history = pushed(pushed(NO_HISTORY, group("a")), group("b"));
+    history = undone(undone(history));
+    expect([ids(history.done), ids(history.undone)]).toEqual([[], ["b", "a"]]);
+    history = redone(history);
+    expect([ids(history.done), ids(history.undone)]).toEqual([["a"], ["b"]]);
+  });
+
+  it("forgets what was undone at a new judgement", () => {
+    const history = pushed(undone(pushed(NO_HISTORY, group("a"))), group("b"));
+    expect([ids(history.done), ids(history.undone)]).toEqual([["b"], []]);
+  });
+
+  it("stays as it is where there is nothing to undo", () => {
+    expect(undone(NO_HISTORY)).toBe(NO_HISTORY);
+    expect(redone(NO_HISTORY)).toBe(NO_HISTORY);
+  });
+});
+
+describe("history rebuilt from the server's decisions", () => {
+  it("has one entry per group", () => {
+    const history = rebuildHistory(
+      [recorded("judge", "a", 1), recorded("judge", "b", 2), recorded("judge", "b", 3)],
+      all,
+    );
+    expect(ids(history.done)).toEqual(["a", "b"]);
+    expect(history.done[1]?.changes.map((change) => change.segmentId)).toEqual([2, 3]);
+  });
+
+  it("moves a group once, however many decisions undid it", () => {
+    const history = rebuildHistory(
+      [
+        recorded("judge", "a", 1),
+        recorded("judge", "b", 2),
+        recorded("judge", "b", 3),
+        recorded("undo", "c", 2, "b"),
+        recorded("undo", "c", 3, "b"),
+      ],
+      all,
+    );
+    expect([ids(history.done), ids(history.undone)]).toEqual([["a"], ["b"]]);
+  });
+
+  it("redoes, and clears what can be redone at the next judgement", () => {
+    const decisions = [
+      recorded("judge", "a", 1),
+      recorded("undo", "b", 1, "a"),
+      recorded("redo", "c", 1, "a"),
+    ];
+    expect(ids(rebuildHistory(decisions, all).done)).toEqual(["a"]);
+    const later = [...decisions, recorded("undo", "d", 1, "a"), recorded("judge", "e", 2)];
+    expect(ids(rebuildHistory(later, all).undone)).toEqual([]);
+  });
+
+  it("leaves carried and imported verdicts out", () => {
+    expect(rebuildHistory([recorded("carry", "a", 1), recorded("import", "b", 2)], all)).toEqual(NO_HISTORY);
+  });
+
+  it("drops segments that a newer run replaced", () => {
+    const history = rebuildHistory(
+      [recorded("judge", "a", 1), recorded("judge", "b", 2), recorded("judge", "b", 3)],
+      (segment) => segment === 3,
+    );
+    expect(history.done).toEqual([{ id: "b", changes: [{ segmentId: 3, from: "undecided", to: "keep" }] }]);
+  });
+});
+
+describe("decisions that the server doesn't have yet", () => {
+  it("know what stood before them", () => {
+    const decision = { client_id: "x", group_id: "g", kind: "judge", segment_id: 5 } as const;
+    const list = asRecorded(
+      [
+        { ...decision, verdict: "reject" },
+        { ...decision, verdict: "keep" },
+      ],
+      () => "ambiguous",
+    );
+    expect(list.map(({ previous }) => previous)).toEqual(["ambiguous", "reject"]);
+  });
+});

@@ -1,0 +1,100 @@
+/**
+ * Undo and redo over groups of changes: what one key did is undone by one key.
+ *
+ * The server stores every decision, undos included; the two stacks are rebuilt from its list, so undo works
+ * across reloads and never reaches into another image.
+ */
+
+import type { NewDecision, StoredDecision, Verdict } from "../api/types";
+
+export interface VerdictChange {
+  readonly segmentId: number;
+  readonly from: Verdict;
+  readonly to: Verdict;
+}
+
+export interface ChangeGroup {
+  readonly id: string;
+  readonly changes: readonly VerdictChange[];
+}
+
+export interface History {
+  /** What can be undone, the latest last. */
+  readonly done: readonly ChangeGroup[];
+  /** What can be done again, the latest undone last. */
+  readonly undone: readonly ChangeGroup[];
+}
+
+export const NO_HISTORY: History = { done: [], undone: [] };
+
+/** A new judgement: whatever was undone before it can't be redone any more. */
+export function pushed(history: History, group: ChangeGroup): History {
+  return { done: [...history.done, group], undone: [] };
+}
+
+/** The history after undoing a group, by default the latest; unchanged where there is none. */
+export function undone(history: History, id = history.done.at(-1)?.id): History {
+  const group = history.done.find((candidate) => candidate.id === id);
+  if (group === undefined) return history;
+  return { done: history.done.filter((other) => other !== group), undone: [...history.undone, group] };
+}
+
+export function redone(history: History, id = history.undone.at(-1)?.id): History {
+  const group = history.undone.find((candidate) => candidate.id === id);
+  if (group === undefined) return history;
+  return { done: [...history.done, group], undone: history.undone.filter((other) => other !== group) };
+}
+
+type Recorded = Pick<StoredDecision, "segment_id" | "verdict" | "previous" | "group_id"> & {
+  kind: StoredDecision["kind"];
+  target_group_id?: string | null;
+};
+
+/**
+ * The two stacks after a list of decisions, oldest first.
+ *
+ * @param isCurrent Whether a segment is still shown; a newer run may have replaced some that were judged.
+ */
+export function rebuildHistory(
+  decisions: Iterable<Recorded>,
+  isCurrent: (segmentId: number) => boolean,
+): History {
+  let history = NO_HISTORY;
+  const moved = new Set<string>();
+  for (const decision of decisions) {
+    if (decision.kind === "judge") history = appended(history, decision);
+    else if ((decision.kind === "undo" || decision.kind === "redo") && !moved.has(decision.group_id)) {
+      moved.add(decision.group_id);
+      const move = decision.kind === "undo" ? undone : redone;
+      history = move(history, decision.target_group_id ?? undefined);
+    }
+  }
+  return { done: withCurrent(history.done, isCurrent), undone: withCurrent(history.undone, isCurrent) };
+}
+
+function appended(history: History, decision: Recorded): History {
+  const change = { segmentId: decision.segment_id, from: decision.previous, to: decision.verdict };
+  const last = history.done.at(-1);
+  if (last?.id !== decision.group_id) return pushed(history, { id: decision.group_id, changes: [change] });
+  const longer = { id: last.id, changes: [...last.changes, change] };
+  return { done: [...history.done.slice(0, -1), longer], undone: [] };
+}
+
+function withCurrent(groups: readonly ChangeGroup[], isCurrent: (id: number) => boolean): ChangeGroup[] {
+  return groups
+    .map((group) => ({ id: group.id, changes: group.changes.filter((c) => isCurrent(c.segmentId)) }))
+    .filter((group) => group.changes.length > 0);
+}
+
+/** Decisions known here only, in the form of the server's list: each one's `previous` is what stood before. */
+export function asRecorded(
+  decisions: readonly NewDecision[],
+  verdictOf: (segmentId: number) => Verdict,
+): Recorded[] {
+  const current = new Map<number, Verdict>();
+  return decisions.map((decision) => {
+    const previous = current.get(decision.segment_id) ?? verdictOf(decision.segment_id);
+    current.set(decision.segment_id, decision.verdict);
+    return { ...decision, previous };
+  });
+}

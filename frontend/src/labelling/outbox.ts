@@ -1,0 +1,192 @@
+/**
+ * Decisions on their way to the server.
+ *
+ * Each one is stored in the browser before the network is tried, sent in order, and forgotten once the server
+ * has acknowledged it. Sending twice is harmless: the server knows a decision by its client id.
+ */
+
+import { asProblem, RequestFailed } from "../api/problem";
+import type { DecisionsStored, NewDecision, Problem } from "../api/types";
+import type { OutboxEntry, OutboxStorage } from "./outbox_storage";
+
+/** The server's limit is 5,000; smaller batches keep a bad connection moving. */
+const BATCH = 500;
+const FIRST_WAIT = 400;
+const LONGEST_WAIT = 10_000;
+
+export type SaveState =
+  | { readonly kind: "saved" }
+  | { readonly kind: "saving"; readonly waiting: number }
+  | { readonly kind: "offline"; readonly waiting: number; readonly problem: Problem }
+  | { readonly kind: "refused"; readonly refused: readonly RefusedDecision[] };
+
+export interface RefusedDecision extends OutboxEntry {
+  readonly problem: Problem;
+}
+
+interface OutboxParts {
+  storage: OutboxStorage;
+  send: (imageId: number, decisions: NewDecision[]) => Promise<DecisionsStored>;
+  /** Resolves after some milliseconds, earlier when the network comes back. */
+  wait: (milliseconds: number) => Promise<void>;
+  onStored?: (imageId: number, answer: DecisionsStored) => void;
+}
+
+export class Outbox {
+  private readonly parts: OutboxParts;
+  private queue: OutboxEntry[] = [];
+  private refused: RefusedDecision[] = [];
+  private problem: Problem | null = null;
+  private pumping: Promise<void> | null = null;
+  private stored: Promise<unknown> = Promise.resolve();
+  private restored: Promise<void> = Promise.resolve();
+  private state: SaveState = { kind: "saved" };
+  private readonly listeners = new Set<() => void>();
+
+  constructor(parts: OutboxParts) {
+    this.parts = parts;
+  }
+
+  readonly getState = (): SaveState => this.state;
+
+  readonly subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  /** Takes up what an earlier visit left unsent; nothing new is sent before it. */
+  restore(): Promise<void> {
+    this.restored = this.takeUp();
+    return this.restored;
+  }
+
+  add(imageId: number, decisions: readonly NewDecision[]): void {
+    const entries = decisions.map((decision) => ({ imageId, decision }));
+    this.queue = [...this.queue, ...entries];
+    // A full or forbidden storage must not keep a decision from the server.
+    const storing = this.parts.storage.add(entries).catch(() => undefined);
+    this.stored = Promise.all([this.stored, storing]);
+    this.pump();
+  }
+
+  /** Resolves once what an earlier visit left is known here. */
+  get ready(): Promise<void> {
+    return this.restored;
+  }
+
+  /** Decisions of an image that the server hasn't acknowledged, oldest first. */
+  pendingFor(imageId: number): NewDecision[] {
+    return this.queue.filter((entry) => entry.imageId === imageId).map((entry) => entry.decision);
+  }
+
+  /**
+   * Resolves once the server has everything.
+   *
+   * @throws RequestFailed when a sending fails; it is retried all the same.
+   */
+  flush(): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const settle = () => {
+        if (this.state.kind === "saving") return;
+        stop();
+        if (this.state.kind === "offline") reject(new RequestFailed(this.state.problem));
+        else resolve();
+      };
+      const stop = this.subscribe(settle);
+      settle();
+    });
+  }
+
+  /** The person has read what was refused. */
+  dismissRefused(): void {
+    this.refused = [];
+    this.update();
+  }
+
+  private async takeUp(): Promise<void> {
+    const left = await this.parts.storage.all().catch(() => []);
+    const known = new Set(this.queue.map((entry) => entry.decision.client_id));
+    this.queue = [...left.filter((entry) => !known.has(entry.decision.client_id)), ...this.queue];
+    this.pump();
+  }
+
+  private pump(): void {
+    this.update();
+    if (this.pumping !== null || this.queue.length === 0) return;
+    this.pumping = this.sendAll().finally(() => {
+      this.pumping = null;
+      // A decision may have come in after the last look at the queue.
+      if (this.queue.length > 0) this.pump();
+    });
+  }
+
+  private async sendAll(): Promise<void> {
+    await this.restored;
+    let pause = FIRST_WAIT;
+    while (this.queue.length > 0) {
+      await this.stored;
+      try {
+        await this.sendBatch(this.nextBatch());
+        this.problem = null;
+        pause = FIRST_WAIT;
+      } catch (error) {
+        this.problem = asProblem(error);
+        this.update();
+        await this.parts.wait(pause);
+        pause = Math.min(2 * pause, LONGEST_WAIT);
+      }
+      this.update();
+    }
+  }
+
+  private nextBatch(): OutboxEntry[] {
+    const imageId = this.queue[0]?.imageId;
+    const end = this.queue.findIndex((entry) => entry.imageId !== imageId);
+    return this.queue.slice(0, Math.min(end < 0 ? this.queue.length : end, BATCH));
+  }
+
+  /** A batch is stored whole or not at all, so one refused decision is found by halving. */
+  private async sendBatch(batch: OutboxEntry[]): Promise<void> {
+    const first = batch[0];
+    if (first === undefined) return;
+    try {
+      const answer = await this.parts.send(
+        first.imageId,
+        batch.map((entry) => entry.decision),
+      );
+      this.forget(batch);
+      this.parts.onStored?.(first.imageId, answer);
+    } catch (error) {
+      if (!(error instanceof RequestFailed) || error.temporary) throw error;
+      if (batch.length === 1) {
+        this.refused = [...this.refused, { ...first, problem: error.problem }];
+        this.forget(batch);
+        return;
+      }
+      const half = Math.ceil(batch.length / 2);
+      await this.sendBatch(batch.slice(0, half));
+      await this.sendBatch(batch.slice(half));
+    }
+  }
+
+  private forget(batch: readonly OutboxEntry[]): void {
+    const ids = batch.map((entry) => entry.decision.client_id);
+    const gone = new Set(ids);
+    this.queue = this.queue.filter((entry) => !gone.has(entry.decision.client_id));
+    // If this fails, the entries are sent once more at the next visit, and recognised there.
+    this.parts.storage.remove(ids).catch(() => undefined);
+  }
+
+  private update(): void {
+    this.state = this.currentState();
+    for (const listener of [...this.listeners]) listener();
+  }
+
+  private currentState(): SaveState {
+    const waiting = this.queue.length;
+    if (waiting > 0 && this.problem !== null) return { kind: "offline", waiting, problem: this.problem };
+    if (waiting > 0) return { kind: "saving", waiting };
+    if (this.refused.length > 0) return { kind: "refused", refused: this.refused };
+    return { kind: "saved" };
+  }
+}

@@ -1,0 +1,36 @@
+/** The page's one outbox, on the browser's storage and network. */
+
+import { postDecisions } from "../api/endpoints";
+import type { DecisionsStored } from "../api/types";
+import { Outbox } from "./outbox";
+import { memoryStorage, openOutboxStorage } from "./outbox_storage";
+
+type StoredListener = (imageId: number, answer: DecisionsStored) => void;
+const storedListeners = new Set<StoredListener>();
+
+export const outbox = new Outbox({
+  storage: typeof indexedDB === "undefined" ? memoryStorage() : openOutboxStorage(indexedDB),
+  send: (imageId, decisions) => postDecisions(imageId, decisions),
+  wait: waitForNetwork,
+  onStored: (imageId, answer) => {
+    for (const listener of storedListeners) listener(imageId, answer);
+  },
+});
+
+/** Hears each acknowledged batch until the returned function is called. */
+export function onDecisionsStored(listener: StoredListener): () => void {
+  storedListeners.add(listener);
+  return () => storedListeners.delete(listener);
+}
+
+function waitForNetwork(milliseconds: number): Promise<void> {
+  return new Promise((resolve) => {
+    const done = () => {
+      clearTimeout(timer);
+      window.removeEventListener("online", done);
+      resolve();
+    };
+    const timer = setTimeout(done, milliseconds);
+    window.addEventListener("online", done);
+  });
+}

@@ -1,0 +1,92 @@
+/** Where unsent decisions survive a crash or a reload. */
+
+import type { NewDecision } from "../api/types";
+
+export interface OutboxEntry {
+  readonly imageId: number;
+  readonly decision: NewDecision;
+}
+
+export interface OutboxStorage {
+  /** All entries in the order in which they were added. */
+  all(): Promise<OutboxEntry[]>;
+  add(entries: readonly OutboxEntry[]): Promise<void>;
+  remove(clientIds: readonly string[]): Promise<void>;
+}
+
+const DATABASE = "clearlines-outbox";
+const STORE = "decisions";
+const BY_CLIENT_ID = "client_id";
+
+export function openOutboxStorage(factory: IDBFactory): OutboxStorage {
+  let opened: Promise<IDBDatabase> | null = null;
+
+  function database(): Promise<IDBDatabase> {
+    opened ??= open(factory).catch((error: unknown) => {
+      opened = null;
+      throw error;
+    });
+    return opened;
+  }
+
+  async function transact(mode: IDBTransactionMode, work: (store: IDBObjectStore) => void): Promise<void> {
+    const transaction = (await database()).transaction(STORE, mode, { durability: "strict" });
+    work(transaction.objectStore(STORE));
+    await new Promise<void>((resolve, reject) => {
+      transaction.oncomplete = () => resolve();
+      transaction.onabort = () => reject(transaction.error);
+      transaction.onerror = () => reject(transaction.error);
+    });
+  }
+
+  return {
+    async all() {
+      let request: IDBRequest<OutboxEntry[]> | null = null;
+      await transact("readonly", (store) => {
+        request = store.getAll();
+      });
+      return (request as IDBRequest<OutboxEntry[]> | null)?.result ?? [];
+    },
+    add: (entries) =>
+      transact("readwrite", (store) => {
+        for (const entry of entries) store.add(entry);
+      }),
+    remove: (clientIds) =>
+      transact("readwrite", (store) => {
+        const index = store.index(BY_CLIENT_ID);
+        for (const clientId of clientIds) {
+          const found = index.getKey(clientId);
+          found.onsuccess = () => {
+            if (found.result !== undefined) store.delete(found.result);
+          };
+        }
+      }),
+  };
+}
+
+function open(factory: IDBFactory): Promise<IDBDatabase> {
+  return new Promise((resolve, reject) => {
+    const request = factory.open(DATABASE, 1);
+    request.onupgradeneeded = () => {
+      const store = request.result.createObjectStore(STORE, { autoIncrement: true });
+      store.createIndex(BY_CLIENT_ID, "decision.client_id", { unique: true });
+    };
+    request.onsuccess = () => resolve(request.result);
+    request.onerror = () => reject(request.error);
+    request.onblocked = () => reject(new Error("The outbox is blocked by another tab."));
+  });
+}
+
+/** Where the browser forbids storage: nothing survives a reload, everything else works. */
+export function memoryStorage(): OutboxStorage {
+  let entries: OutboxEntry[] = [];
+  return {
+    all: async () => entries,
+    add: async (added) => {
+      entries = [...entries, ...added];
+    },
+    remove: async (clientIds) => {
+      entries = entries.filter((entry) => !clientIds.includes(entry.decision.client_id));
+    },
+  };
+}

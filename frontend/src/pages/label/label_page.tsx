@@ -1,0 +1,34 @@
+import { useParams } from "react-router";
+import { PageFrame } from "../../design/page_frame";
+import { ErrorState, LoadingState } from "../../design/states";
+import { LabelWorkspace } from "./label_workspace";
+import { SaveIndicator } from "./save_indicator";
+import { useLabelSession } from "./use_label_session";
+import "./label.css";
+import "./panel.css";
+
+/** The label page of one image; its address can be shared. */
+export function LabelPage() {
+  const { slug = "", imageId = "" } = useParams();
+  const session = useLabelSession(slug, Number(imageId));
+  const { image, error, retry } = session;
+  return (
+    <PageFrame
+      scrolling={false}
+      crumbs={[
+        { label: "Datasets", to: "/" },
+        { label: image?.dataset.name ?? slug, to: `/datasets/${slug}` },
+        { label: image?.name ?? "Image" },
+      ]}
+      actions={<SaveIndicator />}
+    >
+      {image !== undefined ? (
+        <LabelWorkspace slug={slug} session={session} image={image} />
+      ) : error ? (
+        <ErrorState error={error} onRetry={retry} />
+      ) : (
+        <LoadingState label="Loading the image" />
+      )}
+    </PageFrame>
+  );
+}

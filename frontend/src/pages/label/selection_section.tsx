@@ -1,0 +1,80 @@
+import type { SegmentFacts, Verdict } from "../../api/types";
+import type { Scene } from "../../canvas/scene";
+import { formatCount } from "../../design/format";
+import { isBent, type LabelState, selectedPlace, verdictAt } from "../../labelling/label_state";
+import { Magnifier } from "./magnifier";
+import { VerdictButtons } from "./verdict_buttons";
+
+interface SelectionSectionProps {
+  state: LabelState;
+  scene: Scene;
+  bitmap: ImageBitmap | null;
+  onJudge: (verdict: Verdict) => void;
+}
+
+/** The selected candidate: close-ups, facts and the verdict. */
+export function SelectionSection({ state, scene, bitmap, onJudge }: SelectionSectionProps) {
+  const { selected } = state;
+  const candidate = selected === null ? undefined : state.candidates[selected];
+  const verdict = selected === null ? null : verdictAt(state, selected);
+  return (
+    <section className="panel-section" aria-label="Selected candidate">
+      <div className="panel-heading">
+        <h2>Candidate</h2>
+        <span className="muted numeric">
+          {selected === null
+            ? "none selected"
+            : `${formatCount(selectedPlace(state) ?? 0)} of ${formatCount(state.candidates.length)}`}
+        </span>
+      </div>
+      <VerdictButtons current={verdict} onJudge={onJudge} />
+      {candidate === undefined || selected === null || verdict === null ? (
+        <p className="muted panel-hint">Click a line or press Tab to select one.</p>
+      ) : (
+        <>
+          <Magnifier
+            scene={scene}
+            bitmap={bitmap}
+            index={selected}
+            style={verdict === "undecided" && isBent(state, selected) ? "bent" : verdict}
+          />
+          <Facts candidate={candidate} />
+        </>
+      )}
+    </section>
+  );
+}
+
+function Facts({ candidate }: { candidate: SegmentFacts }) {
+  const facts: [string, string, string?][] = [
+    ["Length", `${candidate.length.toFixed(1)} px`],
+    ["Points", String(candidate.n_points)],
+    ["Score", number(candidate.score), "Evidence for an edge, 0 to 1"],
+    ["Residual", withUnit(candidate.residual), "Deviation from the fitted arc"],
+    ["Straightness", number(candidate.straightness), "Probability of being straight under the lens"],
+    ["Origin", candidate.origin],
+  ];
+  return (
+    <>
+      {candidate.straight === false ? (
+        <p className="panel-note">Fails the straightness test under the camera's lens.</p>
+      ) : null}
+      <dl className="facts">
+        {facts.map(([name, value, hint]) => (
+          <div key={name} title={hint}>
+            <dt>{name}</dt>
+            <dd className="numeric">{value}</dd>
+          </div>
+        ))}
+      </dl>
+    </>
+  );
+}
+
+function number(value: number | null): string {
+  return value === null ? "–" : value.toFixed(2);
+}
+
+function withUnit(value: number | null): string {
+  return value === null ? "–" : `${value.toFixed(2)} px`;
+}

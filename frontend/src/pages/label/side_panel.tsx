@@ -1,0 +1,94 @@
+import type { RefObject } from "react";
+import type { ImageDetail } from "../../api/types";
+import type { Scene } from "../../canvas/scene";
+import { Button, IconButton } from "../../design/button";
+import { formatCount } from "../../design/format";
+import { Keys } from "../../design/kbd";
+import type { LabelActions } from "../../labelling/commands";
+import type { Shown } from "../../labelling/label_state";
+import type { LabelStore } from "../../labelling/label_store";
+import { REVIEW_ORDER_NAMES, REVIEW_ORDERS, type ReviewOrder } from "../../labelling/order";
+import { readPreferences, writePreferences } from "../../labelling/preferences";
+import { ImageSection } from "./image_section";
+import { ProgressSection } from "./progress_section";
+import { SelectionSection } from "./selection_section";
+import { useLabelState } from "./use_store";
+
+interface SidePanelProps {
+  slug: string;
+  image: ImageDetail;
+  store: LabelStore;
+  scene: Scene;
+  bitmap: ImageBitmap | null;
+  actions: LabelActions;
+  panelRef: RefObject<HTMLElement | null>;
+}
+
+export function SidePanel({ slug, image, store, scene, bitmap, actions, panelRef }: SidePanelProps) {
+  const state = useLabelState(store);
+
+  function changeShown(shown: Shown): void {
+    store.setShown(shown);
+    writePreferences(localStorage, { ...readPreferences(localStorage), shown });
+  }
+
+  function changeOrder(order: ReviewOrder): void {
+    store.setOrder(order);
+    writePreferences(localStorage, { ...readPreferences(localStorage), order });
+  }
+
+  return (
+    <aside className="label-panel" aria-label="Review" ref={panelRef} tabIndex={-1} id="label-panel">
+      <div className="label-panel__scroll">
+        <ProgressSection state={state} onShown={changeShown} />
+        <SelectionSection state={state} scene={scene} bitmap={bitmap} onJudge={actions.judge} />
+        <section className="panel-section" aria-label="Order of review">
+          <label className="field">
+            <span className="field__label">Order of review</span>
+            <select
+              className="input"
+              value={state.order}
+              onChange={(event) => changeOrder(event.target.value as ReviewOrder)}
+            >
+              {REVIEW_ORDERS.map((order) => (
+                <option key={order} value={order}>
+                  {REVIEW_ORDER_NAMES[order]}
+                </option>
+              ))}
+            </select>
+          </label>
+        </section>
+        <ImageSection slug={slug} image={image} />
+      </div>
+      <footer className="label-panel__footer">
+        <IconButton
+          icon="undo"
+          label="Undo"
+          keys={["Z"]}
+          side="up"
+          tone="default"
+          disabled={state.history.done.length === 0}
+          onClick={actions.undo}
+        />
+        <IconButton
+          icon="redo"
+          label="Redo"
+          keys={["Shift", "Z"]}
+          side="up"
+          tone="default"
+          disabled={state.history.undone.length === 0}
+          onClick={actions.redo}
+        />
+        {state.counts.undecided > 0 ? (
+          <Button className="label-panel__wide" onClick={actions.rejectUndecided}>
+            Reject {formatCount(state.counts.undecided)} left <Keys keys={["R"]} />
+          </Button>
+        ) : (
+          <Button tone="primary" className="label-panel__wide" onClick={actions.finish}>
+            {image.status === "done" ? "Next image" : "Image done"} <Keys keys={["Enter"]} />
+          </Button>
+        )}
+      </footer>
+    </aside>
+  );
+}

@@ -1,0 +1,35 @@
+import { type RefObject, useEffect } from "react";
+import type { LabelActions } from "../../labelling/commands";
+import { commandFor } from "../../labelling/keymap";
+
+const TYPING = "input, textarea, select, [contenteditable]";
+
+/** Keys act wherever nothing is being typed; Tab, Enter and arrows only while the image has the focus. */
+export function useKeys(actions: LabelActions, regionRef: RefObject<HTMLElement | null>): void {
+  useEffect(() => {
+    function onKeyDown(event: KeyboardEvent): void {
+      const target = event.target instanceof Element ? event.target : document.body;
+      if (event.defaultPrevented || target.closest(TYPING)) return;
+      const onImage = target === document.body || target === regionRef.current;
+      const command = commandFor(event, onImage);
+      if (command === null) return;
+      event.preventDefault();
+      command.run(actions);
+    }
+    window.addEventListener("keydown", onKeyDown);
+    return () => window.removeEventListener("keydown", onKeyDown);
+  }, [actions, regionRef]);
+}
+
+/** After a click on a button the image has the focus again, so that Tab goes on with the candidates. */
+export function useFocusBackAfterClick(regionRef: RefObject<HTMLElement | null>): void {
+  useEffect(() => {
+    function onClick(event: MouseEvent): void {
+      // A click made by Enter or Space has no detail: the focus then stays where the keyboard is.
+      if (event.detail === 0 || !(event.target instanceof Element)) return;
+      if (!event.target.closest(TYPING)) regionRef.current?.focus({ preventScroll: true });
+    }
+    window.addEventListener("click", onClick);
+    return () => window.removeEventListener("click", onClick);
+  }, [regionRef]);
+}

@@ -1,0 +1,37 @@
+import type { Verdict } from "../../api/types";
+import { Icon, type IconName } from "../../design/icons";
+import { Keys } from "../../design/kbd";
+
+const BUTTONS: readonly { verdict: Verdict; label: string; caps: string; icon: IconName }[] = [
+  { verdict: "keep", label: "Keep", caps: "K", icon: "check" },
+  { verdict: "reject", label: "Reject", caps: "X", icon: "cross" },
+  { verdict: "ambiguous", label: "Ambiguous", caps: "A", icon: "question" },
+  { verdict: "undecided", label: "Undecided", caps: "U", icon: "circle" },
+];
+
+interface VerdictButtonsProps {
+  current: Verdict | null;
+  onJudge: (verdict: Verdict) => void;
+}
+
+export function VerdictButtons({ current, onJudge }: VerdictButtonsProps) {
+  return (
+    <fieldset className="verdict-buttons" disabled={current === null}>
+      <legend className="visually-hidden">Verdict on the selected candidate</legend>
+      {BUTTONS.map(({ verdict, label, caps, icon }) => (
+        <button
+          key={verdict}
+          type="button"
+          className={`verdict-button verdict-button--${verdict}`}
+          aria-pressed={current === verdict}
+          aria-keyshortcuts={caps}
+          onClick={() => onJudge(verdict)}
+        >
+          <Icon name={icon} />
+          <span>{label}</span>
+          <Keys keys={[caps]} />
+        </button>
+      ))}
+    </fieldset>
+  );
+}

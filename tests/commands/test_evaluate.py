@@ -1,0 +1,251 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from app.commands.evaluate import evaluate
+from app.errors import InvalidFile, InvalidInput, NotFound
+from app.formats.json_writer import write_json
+from app.formats.label_npy import write_label_npy
+from app.formats.labelled import LabelledSegments
+from app.formats.npz import write_npz, write_npz_set
+from app.vision.segments import Segments
+
+YORK = Path(__file__).parents[2].parent / "shared" / "data" / "york"
+
+
+def horizontal(y: float, length: int = 120) -> NDArray[np.float64]:
+    return np.stack([np.arange(10.0, 11 + length), np.full(length + 1, y)], axis=1)
+
+
+def save(path: Path, lines: list[NDArray[np.float64]], **fields) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    labelled = LabelledSegments(Segments.from_list(lines), **fields)
+    match path.suffix:
+        case ".npy":
+            path.write_bytes(write_label_npy(labelled.segments))
+        case ".npz":
+            path.write_bytes(write_npz(labelled))
+        case _:
+            path.write_bytes(write_json(labelled))
+
+
+def save_image(path: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(cv2.imencode(path.suffix, np.full((100, 160), 90, np.uint8))[1].tobytes())
+
+
+@pytest.fixture
+def folders(tmp_path: Path) -> Path:
+    """Two images in a subfolder and one beside it, in all formats."""
+    lines = [horizontal(20), horizontal(60)]
+    save(tmp_path / "labels/KITTI/000000_edge_segments_filtered.npy", lines)
+    save(tmp_path / "labels/KITTI/000001.npz", lines)
+    save(tmp_path / "labels/other.json", lines)
+    save(tmp_path / "found/KITTI/000000.npz", [horizontal(20)])
+    save(tmp_path / "found/KITTI/000001.json", [horizontal(20), horizontal(90)])
+    save(tmp_path / "found/other_edge_segments_filtered.npy", lines)
+    (tmp_path / "found/prelabel.json").write_text("{}")
+    return tmp_path
+
+
+def read(path: Path) -> dict:
+    return json.loads(path.read_text())
+
+
+def test_folders_with_subfolders_in_all_formats(folders: Path) -> None:
+    done = evaluate(folders / "labels", folders / "found", pictures=folders / "out/pictures")
+    assert done.folder == folders / "out"
+    assert done.evaluation.names == ("KITTI/000000", "KITTI/000001", "other")
+    summary = read(folders / "out/summary.json")
+    assert summary["protocol"] == "official-v1"
+    assert summary["precision"] == pytest.approx((1 + 0.5 + 1) / 3, abs=1e-12)
+    assert summary["recall"] == pytest.approx((0.5 + 0.5 + 1) / 3, abs=1e-12)
+    assert (summary["images"], summary["missing"], summary["extra"]) == (3, [], [])
+    assert (folders / "out/summary.txt").read_text().splitlines()[:4] == [
+        "Results for Intersection over Union (IoU) of: 0.5",
+        "Average Precision: 0.83",
+        "Average Recall: 0.67",
+        "F1 Score;: 0.74",
+    ]
+    one = read(folders / "out/individual_results/KITTI/000001.json")
+    assert (one["precision"], one["recall"]) == (0.5, 0.5)
+    assert one["label_outcomes"] == ["hit", "miss"]
+    assert {path.name for path in (folders / "out").iterdir()} == {"summary.txt", "summary.json", "individual_results"}
+
+
+def test_results_go_to_the_papers_place_by_default(folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folders)
+    save_image(folders / "images/other.png")
+    done = evaluate(Path("labels"), Path("found"), images=Path("images"))
+    assert done.pictures == Path("evaluation/visualization")
+    assert (folders / "evaluation/summary.txt").is_file()
+    assert (folders / "evaluation/visualization/other.png").is_file()
+
+
+def test_pictures_are_drawn_where_there_are_images(folders: Path) -> None:
+    save_image(folders / "images/KITTI/000000.png")
+    save_image(folders / "images/other.jpg")
+    save_image(folders / "images/more/unlabelled.png")
+    steps: list[tuple[int, int]] = []
+    done = evaluate(
+        folders / "labels",
+        folders / "found",
+        images=folders / "images",
+        pictures=folders / "out/pictures",
+        progress=lambda step, total: steps.append((step, total)),
+    )
+    pictures = sorted(path.relative_to(folders / "out/pictures").as_posix() for path in folders.rglob("out/**/*.png"))
+    assert pictures == ["KITTI/000000.png", "other.png"]
+    picture = cv2.imread(str(folders / "out/pictures/KITTI/000000.png"))
+    assert picture is not None
+    assert picture.shape[0] > 100
+    blue, green, red = picture[20, 60].astype(int)
+    assert green > blue + 80
+    assert green > red + 80
+    assert done.without_picture == ("KITTI/000001",)
+    assert steps == [(step, 5) for step in range(1, 6)]
+
+
+def test_a_broken_image_costs_its_picture_alone(folders: Path) -> None:
+    save_image(folders / "images/other.png")
+    (folders / "images/KITTI").mkdir()
+    (folders / "images/KITTI/000000.png").write_bytes(b"no image")
+    done = evaluate(folders / "labels", folders / "found", images=folders / "images", pictures=folders / "out/p")
+    assert [error.where for error in done.picture_errors] == [str(folders / "images/KITTI/000000.png")]
+    assert (folders / "out/p/other.png").is_file()
+    assert read(folders / "out/summary.json")["images"] == 3
+
+
+def test_missing_files_count_as_empty_and_extra_ones_are_named_all_at_once(folders: Path) -> None:
+    (folders / "found/KITTI/000000.npz").unlink()
+    (folders / "found/other_edge_segments_filtered.npy").unlink()
+    save(folders / "found/z.npz", [horizontal(20)])
+    save(folders / "found/KITTI/z.json", [horizontal(20)])
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    summary = read(folders / "out/summary.json")
+    assert summary["missing"] == ["KITTI/000000", "other"]
+    assert summary["extra"] == ["KITTI/z", "z"]
+    assert summary["precision"] == pytest.approx(0.5 / 3, abs=1e-12)
+    text = (folders / "out/summary.txt").read_text()
+    assert all(name in text for name in ("- KITTI/000000", "- other", "- KITTI/z", "- z"))
+
+
+def test_ambiguous_labels_are_ignored(folders: Path) -> None:
+    save(folders / "labels/KITTI/000001_edge_segments_ambiguous.npy", [horizontal(90)])
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    one = read(folders / "out/individual_results/KITTI/000001.json")
+    assert (one["precision"], one["recall"], one["predictions"]) == (1.0, 0.5, 1)
+    assert [row["outcome"] for row in one["prediction_outcomes"]] == ["hit", "ignored"]
+    assert read(folders / "out/summary.json")["counts"]["ignored_labels"] == 1
+
+
+def test_an_image_may_have_ambiguous_labels_alone(folders: Path) -> None:
+    save(folders / "labels/only_edge_segments_ambiguous.npy", [horizontal(90)])
+    save(folders / "found/only.npz", [horizontal(20)])
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    one = read(folders / "out/individual_results/only.json")
+    assert (one["labels"], one["precision"], one["recall"]) == (0, 0.0, None)
+
+
+def test_of_labels_with_verdicts_those_kept_count(folders: Path) -> None:
+    lines = [horizontal(20), horizontal(40), horizontal(60), horizontal(80), horizontal(90)]
+    verdicts = ("keep", "reject", "undecided", None, "ambiguous")
+    save(folders / "labels/other.json", lines, verdicts=verdicts)
+    save(folders / "found/other_edge_segments_filtered.npy", lines)
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    one = read(folders / "out/individual_results/other.json")
+    assert [row["outcome"] for row in one["prediction_outcomes"]] == [
+        "hit",
+        "false_alarm",
+        "false_alarm",
+        "false_alarm",
+        "ignored",
+    ]
+    assert one["labels"] == 1
+
+
+def test_short_lines_can_be_left_out(folders: Path) -> None:
+    save(folders / "labels/other.json", [horizontal(20), horizontal(60, 40)])
+    save(folders / "found/other_edge_segments_filtered.npy", [horizontal(80, 40), horizontal(20), horizontal(60, 60)])
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", min_length=50)
+    one = read(folders / "out/individual_results/other.json")
+    assert [(row["index"], row["outcome"]) for row in one["prediction_outcomes"]] == [(1, "hit"), (2, "ignored")]
+    assert (one["precision"], one["recall"]) == (1.0, 1.0)
+
+
+def test_one_file_may_hold_the_predictions_of_all_images(folders: Path) -> None:
+    lines = LabelledSegments(Segments.from_list([horizontal(20)]))
+    images = [(name, lines) for name in ("KITTI/000000", "KITTI/000001", "extra")]
+    (folders / "all.npz").write_bytes(write_npz_set(images))
+    evaluate(folders / "labels", folders / "all.npz", pictures=folders / "out/p")
+    summary = read(folders / "out/summary.json")
+    assert (summary["missing"], summary["extra"]) == (["other"], ["extra"])
+    assert summary["counts"]["true_positives"] == 2
+
+
+def test_all_broken_files_are_named_and_nothing_is_written(folders: Path) -> None:
+    (folders / "found/KITTI/000001.json").write_text('{"segments": [{"points": [[1, NaN]]}]}')
+    (folders / "labels/KITTI/000000_edge_segments_filtered.npy").write_bytes(b"not numpy")
+    with pytest.raises(InvalidFile) as caught:
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    assert "000001.json" in str(caught.value)
+    assert "000000_edge_segments_filtered.npy" in str(caught.value)
+    assert not (folders / "out").exists()
+
+
+def test_two_files_for_one_image_are_refused(folders: Path) -> None:
+    save(folders / "found/KITTI/000000.json", [horizontal(20)])
+    with pytest.raises(InvalidInput, match=r"found: .*KITTI/000000\.json and KITTI/000000\.npz"):
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+
+
+def test_a_folder_that_is_not_there_is_named(folders: Path) -> None:
+    for arguments in ((folders / "nope", folders / "found"), (folders / "labels", folders / "nope")):
+        with pytest.raises(NotFound, match=r"nope: the .* folder doesn't exist"):
+            evaluate(*arguments, pictures=folders / "out/p")
+    with pytest.raises(NotFound, match="image folder"):
+        evaluate(folders / "labels", folders / "found", images=folders / "nope", pictures=folders / "out/p")
+
+
+def test_no_labels_say_what_was_looked_for(folders: Path) -> None:
+    (folders / "empty").mkdir()
+    with pytest.raises(InvalidInput, match=r"no label files.*NAME_edge_segments_filtered\.npy"):
+        evaluate(folders / "empty", folders / "found", pictures=folders / "out/p")
+
+
+@pytest.mark.parametrize("min_length", [-1.0, float("nan"), float("inf")])
+def test_a_senseless_length_is_refused(folders: Path, min_length: float) -> None:
+    with pytest.raises(InvalidInput, match="length"):
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", min_length=min_length)
+
+
+def test_an_unknown_protocol_is_refused(folders: Path) -> None:
+    with pytest.raises(InvalidInput, match="official-v1"):
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", protocol="mine")
+
+
+def test_a_second_time_replaces_the_first(folders: Path) -> None:
+    for _ in range(2):
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    assert not list(folders.rglob("*.tmp"))
+    assert read(folders / "out/summary.json")["images"] == 3
+
+
+def test_york_labels_against_themselves_and_with_pictures(tmp_path: Path) -> None:
+    labels = sorted(YORK.glob("labels/*.npy"))[:3]
+    if not labels:
+        pytest.skip("the York Urban photos aren't there")
+    for path in labels:
+        (tmp_path / "labels").mkdir(exist_ok=True)
+        (tmp_path / "labels" / path.name).write_bytes(path.read_bytes())
+    done = evaluate(tmp_path / "labels", YORK / "labels", images=YORK / "images", pictures=tmp_path / "out/p")
+    assert done.evaluation.totals.precision == 1.0
+    assert done.without_picture == ()
+    assert len(done.evaluation.extra) == len(sorted(YORK.glob("labels/*.npy"))) - 3
+    assert len(list((tmp_path / "out/p").glob("*.png"))) == 3

@@ -1,0 +1,29 @@
+"""Tasks that misbehave in a worker process, by the name of the image they are given."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+from app.jobs.tasks import DetectionResult, detect_task
+
+
+def gated_detect(content: bytes, name: str, parameters: dict[str, Any], **options: Any) -> DetectionResult:
+    """Images named ``held...`` say which process works on them and wait until the gate is open."""
+    gate = Path(os.environ["TEST_GATE"])
+    if name.startswith("held"):
+        (gate / f"{name}.pid").write_text(str(os.getpid()))
+        deadline = time.monotonic() + 90
+        while not (gate / "open").exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+    return detect_task(content, name, parameters, **options)
+
+
+def deadly_detect(content: bytes, name: str, parameters: dict[str, Any], **options: Any) -> DetectionResult:
+    """Images named ``deadly...`` kill the process that works on them, as a lack of memory would."""
+    if name.startswith("deadly"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return detect_task(content, name, parameters, **options)
