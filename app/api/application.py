@@ -19,6 +19,7 @@ from app.api.problems import answers, install_problem_handlers
 from app.api.routers import cameras, datasets, exports, images, labelling, runs, system, uploads
 from app.db.session import open_database, upgrade
 from app.jobs.dispatcher import Dispatcher
+from app.jobs.housekeeping import Housekeeper
 from app.settings import Settings
 from app.storage import BlobStore
 
@@ -45,10 +46,13 @@ def create_application(settings: Settings) -> FastAPI:
         blobs = BlobStore(settings.blob_dir)
         dispatcher = Dispatcher(database, blobs, settings, utc_now)
         application.state.server = Server(settings, database, blobs, dispatcher, utc_now)
+        housekeeper = Housekeeper(database, blobs, grace=settings.grace, clock=utc_now)
         dispatcher.start()
+        housekeeper.start()
         try:
             yield
         finally:
+            housekeeper.stop()
             dispatcher.stop()
             database.close()
 

@@ -91,6 +91,14 @@ def alive_unique(name: str, *columns: str) -> Index:
     return Index(name, *columns, unique=True, sqlite_where=alive, postgresql_where=alive)
 
 
+class Installation(Base):
+    """The one row that tells this database from every other, so that a browser doesn't take one for another."""
+
+    __tablename__ = "installations"
+
+    instance: Mapped[str] = mapped_column(String(36), primary_key=True)
+
+
 class Dataset(Base):
     """A named set of images."""
 

@@ -10,6 +10,8 @@ before they write lock the rows they decide on with ``with_for_update()``, which
 
 from __future__ import annotations
 
+import sqlite3
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -92,13 +94,16 @@ def open_database(url: str | URL, *, busy_timeout: float = BUSY_TIMEOUT) -> Data
         event.listen(engine, "connect", _prepare_sqlite)
         event.listen(engine, "begin", _begin_sqlite)
     else:
-        engine = create_engine(address, pool_pre_ping=True, **options)
+        try:
+            engine = create_engine(address, pool_pre_ping=True, **options)
+        except ModuleNotFoundError as error:
+            raise InvalidInput("psycopg isn't installed", hint="pip install 'clearlines[postgres]'") from error
     return Database(engine)
 
 
 def upgrade(database: Database) -> None:
     """Bring the tables to this version's form; safe to call at each start, also by several processes at once."""
-    from app.db.migrations import run_upgrade
+    from app.db.migrations import run_upgrade  # Alembic takes long to import, and most of the code never needs it
 
     run_upgrade(database.engine)
 
@@ -127,9 +132,22 @@ def _prepare_sqlite(connection: Any, _record: object) -> None:
     # sqlite3 would otherwise begin transactions by itself, and never IMMEDIATE
     connection.isolation_level = None
     cursor = connection.cursor()
-    cursor.execute("PRAGMA journal_mode = WAL")
+    _switch_to_wal(cursor)
     cursor.execute("PRAGMA synchronous = NORMAL")
     cursor.close()
+
+
+def _switch_to_wal(cursor: sqlite3.Cursor) -> None:
+    """Switch the file to WAL, which stays so; of several that switch a new file at once SQLite lets some fail."""
+    for pause in (0.01, 0.03, 0.1, 0.3, 1.0, 0.0):
+        try:
+            cursor.execute("PRAGMA journal_mode = WAL")
+        except sqlite3.OperationalError:
+            if not pause:
+                raise
+            time.sleep(pause)
+        else:
+            return
 
 
 def _begin_sqlite(connection: Connection) -> None:

@@ -14,14 +14,11 @@ from concurrent.futures import BrokenExecutor, Executor
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy.exc import DisconnectionError, InterfaceError, OperationalError
-from sqlalchemy.exc import TimeoutError as PoolTimeout
-
 from app.db.session import Database
-from app.errors import ClearLinesError, Unavailable
 from app.jobs.executor import make_executor
 from app.jobs.flight import Flight
 from app.jobs.lock import lock_for
+from app.jobs.trouble import DATABASE_TROUBLE, reason_of
 from app.jobs.work import DetectWork, EstimateWork, JudgeWork, Stores, Tasks, Work
 from app.services.lens_estimates import finish_settled_runs, pending_estimates, pending_judgements
 from app.services.run_queue import (
@@ -38,7 +35,6 @@ from app.storage import BlobStore
 logger = logging.getLogger(__name__)
 
 DATABASE_PAUSE = 1.0  # s; how long to wait after the database couldn't answer
-DATABASE_TROUBLE = (OperationalError, InterfaceError, DisconnectionError, PoolTimeout, Unavailable)
 
 
 class Dispatcher:
@@ -157,7 +153,7 @@ class Dispatcher:
             if error is None:
                 self._store(work, future.result(), now)
             else:
-                work.fail(self._stores, _reason(error), now)
+                work.fail(self._stores, reason_of(error), now)
             self._flight.drop(work)
         culprit = self._flight.recover()
         if culprit is not None:
@@ -170,7 +166,7 @@ class Dispatcher:
             raise
         except Exception as error:
             logger.exception("the result of %s can't be stored", work.key)
-            work.fail(self._stores, _reason(error), now)
+            work.fail(self._stores, reason_of(error), now)
 
     def _charge(self, work: Work, now: datetime) -> None:
         """Count an attempt of work that killed its worker; when none is left it fails, alone."""
@@ -234,7 +230,7 @@ class Dispatcher:
                 raise
             except Exception as error:
                 logger.warning("%s can't be begun: %s", work.key, error)
-                work.fail(self._stores, _reason(error), now)
+                work.fail(self._stores, reason_of(error), now)
                 self._flight.drop(work)
 
     def _is_idle(self) -> bool:
@@ -255,9 +251,3 @@ class Dispatcher:
         self._lock.release()
         self._holds_lock = False
         self._last_beat = None
-
-
-def _reason(error: BaseException) -> dict[str, Any]:
-    if isinstance(error, ClearLinesError):
-        return error.as_dict()
-    return ClearLinesError(f"{type(error).__name__}: {error}").as_dict()

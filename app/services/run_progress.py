@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
@@ -187,7 +187,7 @@ def _changes(session: Session, run_ids: Sequence[int]) -> dict[int, tuple[int, R
     names = ("candidates", "carried", "kept_unmatched", "already_there", "retired", "discarded")
     sums = [func.coalesce(func.sum(RunImage.changes[name].as_integer()), 0) for name in names]
     reopened = func.count().filter(RunImage.changes["reopened"].as_boolean())
-    rows = session.execute(
+    rows: Iterable[Any] = session.execute(
         select(RunImage.run_id, reopened, *sums)
         .where(RunImage.run_id.in_(run_ids), RunImage.status == "done")
         .group_by(RunImage.run_id)

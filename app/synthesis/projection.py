@@ -85,7 +85,8 @@ def _outlines(cameras: Points, view: View) -> tuple[NDArray[np.int64], NDArray[n
     following = np.roll(pixels, -1, axis=1)
     steps = following - pixels
     areas = np.sum(pixels[..., 0] * following[..., 1] - pixels[..., 1] * following[..., 0], axis=1) / 2
-    lengths = np.linalg.norm(steps, axis=-1)
+    # in units of the width that a pixel has across the edge: 1 along rows and columns, 1.41 along diagonals
+    lengths = np.abs(steps).sum(axis=-1)
     turn = np.where(areas < 0, -1.0, 1.0)[:, None] / np.maximum(lengths, 1e-12)
     across = np.stack([-steps[..., 1] * turn, steps[..., 0] * turn], axis=-1)
     offsets = -np.sum(across * pixels, axis=-1)

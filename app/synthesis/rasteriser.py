@@ -1,7 +1,8 @@
 """From surfaces to an ideal pinhole picture: painter's order, exact edges, and which surface each pixel shows.
 
-Edges are antialiased by area, not by samples: a pixel's share of a half plane is its signed distance to the edge plus
-one half, clipped to 0..1, so that an edge lies where geometry puts it whatever the resolution.
+Edges are antialiased by area, not by samples: a pixel's share of a half plane is its signed distance to the edge, in
+units of the pixel's own width across that edge, plus one half and clipped to 0..1. So an edge lies where geometry
+puts it, whatever the resolution; along rows, columns and diagonals, where all pixels share one error, it has none.
 """
 
 from __future__ import annotations

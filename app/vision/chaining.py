@@ -55,7 +55,8 @@ def link(points: EdgePoints, usable: NDArray[np.bool_]) -> NDArray[np.int64]:
     """Find the point that follows each point, -1 where a chain ends.
 
     A point is followed by one with the same sign, one to three columns on, that lies within ``0.7 + 0.3 k`` px of
-    where the mean of both slopes puts it; the slopes differ by at most 0.8. Two points are linked when each is the other's nearest; nearer columns come first.
+    where the mean of both slopes puts it; the slopes differ by at most 0.8. Two points are linked when each is the
+    other's nearest; nearer columns come first.
 
     Args:
         points: Edge points of one pass.
@@ -100,9 +101,7 @@ def _pairs(
     return first[good], second[good], distance[good]
 
 
-def _one_to_one(
-    source: NDArray[np.int64], target: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _one_to_one(source: NDArray[np.int64], target: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Break the ties: of several pairs with one source or one target the first stays."""
     _, first = np.unique(source, return_index=True)
     source, target = source[first], target[first]

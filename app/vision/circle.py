@@ -85,7 +85,8 @@ def fit_circles(
     """Fit circles to moments.
 
     With ``M`` the central moments divided by powers of ``s = sqrt(Mxx + Myy)`` and ``T = diag(1/2, 1, 1)``, the
-    smallest eigenpair ``(eta, w)`` of ``T M T`` gives ``(A s, B, C) = T w``, ``D = -A s^2``; the rms is ``s sqrt(eta)``.
+    smallest eigenpair ``(eta, w)`` of ``T M T`` gives ``(A s, B, C) = T w`` and ``D = -A s^2``; the rms
+    is ``s sqrt(eta)``.
     Where the curvature exceeds the limit, the best arc of that curvature is taken in its place.
 
     Args:
@@ -106,9 +107,7 @@ def fit_circles(
     return Circles(origin + mean, coefficients, rms)
 
 
-def distances(
-    coefficients: NDArray[np.float64], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def distances(coefficients: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Signed distances in px of points to circles, ``2 F / (1 + sqrt(1 + 4 A F))``: stable for any radius.
 
     Args:

@@ -75,5 +75,5 @@ def _look(
         supported |= (norm >= _SUPPORT_NORM) & (normal_part >= _SUPPORT_COSINE * norm)
         if shift == 0:
             along_part = np.abs(gx * direction[:, None, 0] + gy * direction[:, None, 1])
-            crossed = (along_part > _CROSSING_NORM).any(axis=1)
+            crossed = np.any(along_part > _CROSSING_NORM, axis=1)
     return supported.mean(axis=1), crossed

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from app.vision.arcs import Arcs, fit_arcs
 from app.vision.circle import shift_sums
@@ -51,6 +51,8 @@ FOLLOWING = MergeRule(True, 8.0, 1.5, 0.06, 0.6, 1.5, 80.0, 10.0, 0.05)
 FLIPPING = MergeRule(False, 4.0, 1.0, 0.03, 0.4, 1.0, 36.0, 12.0, 0.0)
 
 _OVERLAP = 2.0
+# bounds the memory of large images
+_PAIRS_AT_ONCE = 500_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +79,12 @@ def merge(arcs: Arcs, field: Gradient, rule: MergeRule) -> Arcs:
     changed = np.arange(len(arcs))
     pairs = _Pairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))
     while len(changed):
-        new = _examine(arcs, *_neighbours(arcs, alive, changed, rule), field, rule)
-        pairs = _Pairs(*(np.concatenate([getattr(pairs, f.name), getattr(new, f.name)]) for f in fields(_Pairs)))
+        leave, enter = _neighbours(arcs, alive, changed, rule)
+        parts = [pairs]
+        for begin in range(0, len(leave), _PAIRS_AT_ONCE):
+            part = slice(begin, begin + _PAIRS_AT_ONCE)
+            parts.append(_examine(arcs, leave[part], enter[part], field, rule))
+        pairs = _Pairs(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(_Pairs)))
         best = _mutually_best(pairs, len(arcs))
         if not best.any():
             break
@@ -131,14 +137,14 @@ def _within(
     """Pairs of ends no farther apart than the source's reach, classed by reach to keep the searches narrow."""
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
     if len(source) and len(target):
-        tree = cKDTree(ends[target])
+        tree = KDTree(ends[target])
         low = 0.0
         for high in (15.0, 25.0, 45.0, 80.0, np.inf):
             own = source[(reach[source // 2] > low) & (reach[source // 2] <= high)]
             low = high
             if len(own):
                 radius = float(reach[own // 2].max())
-                near = cKDTree(ends[own]).sparse_distance_matrix(tree, radius, output_type="ndarray")
+                near = KDTree(ends[own]).sparse_distance_matrix(tree, radius, output_type="ndarray")
                 one, two = own[near["i"]], target[near["j"]]
                 good = near["v"] <= reach[one // 2]
                 found.append((one[good], two[good]))
@@ -203,9 +209,7 @@ def _join(arcs: Arcs, leave: NDArray[np.int64], enter: NDArray[np.int64]) -> Arc
     lesser_first = np.where(longer_first[:, None], traits_first, traits_first[:, [1, 0, 2]])
     lesser_second = np.where(longer_first[:, None], traits_second[:, [1, 0, 2]], traits_second)
     traits = np.where(flipped, lesser_first + lesser_second, traits_first + traits_second)
-    return fit_arcs(
-        arcs.origin[first], sums, traits, np.where(onward, begin, finish), np.where(onward, finish, begin)
-    )
+    return fit_arcs(arcs.origin[first], sums, traits, np.where(onward, begin, finish), np.where(onward, finish, begin))
 
 
 def _replaced(arcs: Arcs, index: NDArray[np.int64], by: Arcs) -> Arcs:

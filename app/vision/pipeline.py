@@ -12,7 +12,7 @@ from app.vision.arcs import Arcs, concatenate, fit_arcs
 from app.vision.chaining import chain
 from app.vision.circle import moment_sums
 from app.vision.duplicates import uncovered
-from app.vision.edges import edge_pixels, gradient
+from app.vision.edges import Gradient, edge_pixels, gradient
 from app.vision.equalisation import equalise
 from app.vision.extension import extend
 from app.vision.filtering import LEAST_QUALITY, PAINT_WIDTH, qualities, scores
@@ -25,7 +25,7 @@ from app.vision.subpixel import EdgePoints, refine
 from app.vision.tracing import Trace, trace
 
 _LARGEST_IMAGE = 40_000_000
-_POSITION_SIGMA = 0.7
+_POSITION_SIGMA = 1.0
 # weaker edges than this neither support nor extend a segment
 _WEAKEST_NORM = 25.0
 _SIDE_DISTANCE = 3.0
@@ -53,10 +53,7 @@ def detect(gray: NDArray[Any], parameters: DetectionParameters | None = None) ->
     gray = _checked(gray)
     if min(gray.shape) < 3:
         return Segments.empty()
-    equalised = gradient(equalise(gray, parameters.clahe_clip, parameters.clahe_tile), parameters.sigma)
-    plain = gradient(gray, _POSITION_SIGMA)
-    weakest = min(_WEAKEST_NORM, parameters.low_threshold)
-    along_x, along_y = (refine(edge_pixels(equalised, weakest, axis), equalised, plain) for axis in (0, 1))
+    equalised, along_x, along_y = _edge_points(gray, parameters)
     pieces = [_pieces(points, gray, parameters) for points in (along_x, along_y)]
     arcs = concatenate(pieces)
     arcs = merge(merge(arcs, equalised, FOLLOWING), equalised, FLIPPING)
@@ -70,9 +67,19 @@ def _checked(gray: NDArray[Any]) -> NDArray[np.uint8]:
         raise InvalidImage(f"a grey image has two dimensions, not {shape}", expected="(H, W)")
     if gray.size > _LARGEST_IMAGE:
         raise InvalidImage(
-            f"{gray.shape[1]} x {gray.shape[0]} pixels are too many", expected=f"at most {_LARGEST_IMAGE // 10**6} million"
+            f"{gray.shape[1]} x {gray.shape[0]} pixels are too many",
+            expected=f"at most {_LARGEST_IMAGE // 10**6} million",
         )
     return np.ascontiguousarray(to_eight_bit(gray))
+
+
+def _edge_points(gray: NDArray[np.uint8], parameters: DetectionParameters) -> tuple[Gradient, EdgePoints, EdgePoints]:
+    """Gradient of the equalised image, and the sub-pixel points of both passes, weak ones included."""
+    equalised = gradient(equalise(gray, parameters.clahe_clip, parameters.clahe_tile), parameters.sigma)
+    plain = gradient(gray, _POSITION_SIGMA)
+    weakest = min(_WEAKEST_NORM, parameters.low_threshold)
+    along_x, along_y = (refine(edge_pixels(equalised, weakest, axis), equalised, plain) for axis in (0, 1))
+    return equalised, along_x, along_y
 
 
 def _pieces(points: EdgePoints, gray: NDArray[np.uint8], parameters: DetectionParameters) -> Arcs:
@@ -128,7 +135,7 @@ def _measure(
     if not len(samples.u):
         return Segments.empty()
 
-    member, first = np.unique(samples.walk, return_index=True)
+    first = np.flatnonzero(np.diff(samples.walk, prepend=-1))
     bounds = np.append(first, len(samples.u)).astype(np.int64)
     ends = samples.points[bounds[1:] - 1] - samples.points[bounds[:-1]]
     chords = np.hypot(ends[:, 0], ends[:, 1])
@@ -139,9 +146,7 @@ def _measure(
     kept &= hits >= _LEAST_POINTS_PER_PX * chords
     best = np.flatnonzero(kept)
     best = best[np.argsort(-quality[best], kind="stable")]
-    polylines = [
-        samples.points[bounds[i] : bounds[i + 1]][samples.hit[bounds[i] : bounds[i + 1]]] for i in best
-    ]
+    polylines = [samples.points[bounds[i] : bounds[i + 1]][samples.hit[bounds[i] : bounds[i + 1]]] for i in best]
     return Segments.from_list(polylines, scores(quality[best]))
 
 

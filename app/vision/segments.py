@@ -111,7 +111,8 @@ class Segments:
         steps = np.hypot(*np.diff(self.points.astype(np.float64), axis=0).T) if len(self.points) > 1 else np.zeros(0)
         steps = np.append(steps, 0.0)
         steps[self.offsets[1:] - 1] = 0.0  # the step from one segment to the next is no length
-        return np.bincount(self.segment_of_point, weights=steps[: len(self.points)], minlength=len(self))
+        sums = np.bincount(self.segment_of_point, weights=steps[: len(self.points)], minlength=len(self))
+        return sums.astype(np.float64)
 
     def extents(self) -> NDArray[np.float64]:
         """Distance of each segment's end points in px, float64 ``(S,)``."""

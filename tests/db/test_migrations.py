@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from alembic import command
@@ -54,3 +56,20 @@ def test_upgrade_needs_no_working_directory(tmp_path: Path, monkeypatch) -> None
     upgrade(database)
     assert "segments" in inspect(database.engine).get_table_names()
     database.close()
+
+
+def test_several_servers_that_start_at_once(tmp_path: Path) -> None:
+    together = threading.Barrier(6)
+
+    def start(_number: int) -> list[str]:
+        together.wait()
+        database = open_database(f"sqlite:///{tmp_path}/new.sqlite3")
+        upgrade(database)
+        names = inspect(database.engine).get_table_names()
+        database.close()
+        return names
+
+    with ThreadPoolExecutor(6) as pool:
+        assert {tuple(names) for names in pool.map(start, range(6))} == {
+            tuple(sorted([*Base.metadata.tables, "alembic_version"]))
+        }

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from sqlalchemy import select
 
-from app.db.models import Blob, Camera, Dataset, Image, Review, RunImage, Segment
+from app.db.models import Blob, Camera, Dataset, Image, Review, Run, RunImage, Segment
 from app.db.session import Database
 from app.jobs.dispatcher import Dispatcher
 from app.jobs.work import Tasks
@@ -131,7 +131,15 @@ class Yard:
             return run_summary(session, run_id, utc_now(), grace=timedelta(days=7))
 
     def finished(self, run_id: int) -> bool:
-        return self.summary(run_id).status not in ("queued", "running")
+        with self.database.read() as session:
+            return session.scalar(select(Run.status).where(Run.id == run_id)) not in ("queued", "running")
+
+    def done(self, run_id: int) -> int:
+        """How many images are done."""
+        with self.database.read() as session:
+            return len(
+                session.scalars(select(RunImage.id).where(RunImage.run_id == run_id, RunImage.status == "done")).all()
+            )
 
     def begun(self) -> dict[str, int]:
         """Process ids of the tasks that wait at the gate, by image name."""
@@ -158,7 +166,7 @@ def make_yard(database: Database, folder: Path, monkeypatch: pytest.MonkeyPatch)
         session.flush()
         session.add(Camera(dataset_id=dataset.id, name="front", width=WIDTH, height=HEIGHT, created_at=now))
         dataset_id = dataset.id
-    settings = Settings(data_dir=folder, workers=2, heartbeat_seconds=0.2, stale_seconds=60, max_attempts=3)
+    settings = Settings(data_dir=folder, workers=2, heartbeat_seconds=0.5, stale_seconds=60, max_attempts=3)
     return Yard(database, BlobStore(folder / "blobs"), settings, gate, dataset_id)
 
 
@@ -170,7 +178,7 @@ def eventually() -> Callable[[Callable[[], Any], str], Any]:
         deadline = time.monotonic() + DEADLINE
         while not (value := condition()):
             assert time.monotonic() < deadline, f"never happened: {what}"
-            time.sleep(0.02)
+            time.sleep(0.1)
         return value
 
     return wait

@@ -20,7 +20,7 @@ def main() -> None:
     from app.storage import BlobStore
 
     address, folder = sys.argv[1:]
-    settings = Settings(data_dir=Path(folder), workers=2, heartbeat_seconds=0.2, max_attempts=3)
+    settings = Settings(data_dir=Path(folder), workers=1, heartbeat_seconds=0.5, max_attempts=3)
     dispatcher = Dispatcher(
         open_database(address),
         BlobStore(Path(folder)),

@@ -7,6 +7,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import timedelta
+from typing import NoReturn
 
 import pytest
 from sqlalchemy import select
@@ -142,7 +143,8 @@ def test_a_cancelled_run_is_left_alone(small_yard) -> None:
     assert {row.status for row in yard.rows(run_id).values()} == {"cancelled"}
 
 
-def test_a_run_that_stopped_before_its_estimates_makes_them_at_the_next_start(yard) -> None:
+def test_a_run_that_stopped_before_its_estimates_makes_them_at_the_next_start(small_yard) -> None:
+    yard = small_yard
     yard.add("a", "b")
     run_id = yard.start()
 
@@ -165,7 +167,7 @@ def test_a_run_that_stopped_before_its_estimates_makes_them_at_the_next_start(ya
         assert all(value is not None for value in session.scalars(select(Segment.straightness)))
 
 
-def never(*_args: object) -> dict:
+def never(*_args: object, **_options: object) -> NoReturn:
     raise InvalidInput("no lens today")
 
 
@@ -216,7 +218,8 @@ class StumblingDatabase(Database):
             yield session
 
 
-def test_a_database_that_stumbles_costs_time_only(yard, monkeypatch) -> None:
+def test_a_database_that_stumbles_costs_time_only(small_yard, monkeypatch) -> None:
+    yard = small_yard
     monkeypatch.setattr(dispatcher_module, "DATABASE_PAUSE", 0.01)
     yard.add("a", "b", "c", "d")
     run_id = yard.start()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.vision.bins import BINS, bin_segments, orthonormal_polynomials
+from app.vision.bins import BINS, SIGMA_FLOOR, SIGMA_LYING, bin_segments, orthonormal_polynomials
 from app.vision.segments import Segments
 
 
@@ -38,7 +38,7 @@ def test_bins_hold_means_and_shares_of_the_points():
     assert binned.length[0] == pytest.approx(239)
     assert not binned.vertical[0]
     assert binned.roughness[0] == pytest.approx(0, abs=1e-9)
-    assert binned.sigma[0] == pytest.approx(0.05)
+    assert binned.sigma[0] == pytest.approx(SIGMA_FLOOR * np.sqrt(2.39) * SIGMA_LYING)
 
 
 def test_roughness_is_what_a_cubic_leaves():

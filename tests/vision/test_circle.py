@@ -27,7 +27,9 @@ def fit(points: np.ndarray, limit: float = np.inf):
     x=st.floats(0, 8000),
     y=st.floats(0, 6000),
 )
-def test_an_exact_arc_is_found_whatever_its_radius(radius: float, length: float, angle: float, x: float, y: float) -> None:
+def test_an_exact_arc_is_found_whatever_its_radius(
+    radius: float, length: float, angle: float, x: float, y: float
+) -> None:
     points = arc(radius, length, angle, (x, y))
     circles = fit(points)
     # rounding of coordinates of thousands of px leaves about 1e-12 px, times 8 / length^2 in curvature
@@ -38,7 +40,7 @@ def test_an_exact_arc_is_found_whatever_its_radius(radius: float, length: float,
 
 def test_the_coefficients_are_normalised() -> None:
     A, B, C, D = fit(arc(400, 120, 0.7, (100, 50), noise=0.3)).coefficients[0]
-    assert B * B + C * C - 4 * A * D == pytest.approx(1, abs=1e-12)
+    assert pytest.approx(1, abs=1e-12) == B * B + C * C - 4 * A * D
 
 
 def test_a_straight_line_has_no_curvature() -> None:

@@ -38,7 +38,8 @@ def test_releases_further_parameters_only_where_the_data_ask_for_it(segments_thr
     fits = [fit_lens(bin_segments([segments_through(lens, 150)], *SIZE), *SIZE) for lens in (plain, strong)]
     assert fits[0].free == RUNGS[0]
     assert len(fits[1].free) > 1
-    assert field_error(strong, Division.from_parameters(*SIZE, fits[1].parameters), *SIZE).rms < 1.0
+    error = field_error(strong, Division.from_parameters(*SIZE, fits[1].parameters), *SIZE).rms
+    assert error < 0.15 * field_error(strong, Brown.identity(*SIZE), *SIZE).rms
 
 
 def test_refinement_never_loses(segments_through):

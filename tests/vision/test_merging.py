@@ -76,9 +76,7 @@ def test_flipped_contrast_is_merged_by_its_own_rule_only() -> None:
     assert ends(merged) == [[10, 50, 110, 50]]
     counts = arcs.sums[:, 0]
     # the shorter arc's dark side lies on the longer one's bright side
-    assert merged.traits[0, :2] == pytest.approx(
-        [50 * counts[0] + 150 * counts[1], 150 * counts[0] + 50 * counts[1]]
-    )
+    assert merged.traits[0, :2] == pytest.approx([50 * counts[0] + 150 * counts[1], 150 * counts[0] + 50 * counts[1]])
 
 
 def test_pieces_of_one_circle_become_one_arc() -> None:

@@ -59,7 +59,9 @@ def test_an_anti_aliased_edge_is_found_within_a_tenth_of_a_pixel(angle: float, o
 
 def test_the_error_over_all_edges_is_small_and_without_bias() -> None:
     rng = np.random.default_rng(7)
-    errors = [measure(float(a), float(o)) for a, o in zip(rng.uniform(0, np.pi, 60), rng.uniform(-0.5, 0.5, 60), strict=True)]
+    errors = [
+        measure(float(a), float(o)) for a, o in zip(rng.uniform(0, np.pi, 60), rng.uniform(-0.5, 0.5, 60), strict=True)
+    ]
     everything = np.concatenate(errors)
     assert np.sqrt((everything**2).mean()) <= 0.025
     assert abs(everything.mean()) < 0.01

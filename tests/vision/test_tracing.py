@@ -23,7 +23,13 @@ def passes(columns: np.ndarray, rows: np.ndarray, slope: float = 0.0) -> tuple[E
     along_x = EdgePoints(0, columns, rows, np.full(count, slope), ones, np.full(count, 90, np.float32), index)
     none = np.zeros(0)
     along_y = EdgePoints(
-        1, none.astype(np.int64), none, none, none.astype(np.int8), none.astype(np.float32), np.full(SHAPE, -1, np.int32)
+        1,
+        none.astype(np.int64),
+        none,
+        none,
+        none.astype(np.int8),
+        none.astype(np.float32),
+        np.full(SHAPE, -1, np.int32),
     )
     return along_x, along_y
 

@@ -27,7 +27,7 @@ from app.services import image_changes, image_details, image_lists, images
 from app.services.datasets import get_dataset
 
 router = APIRouter(tags=["images"], responses=answers(404))
-FOREVER = "private, max-age=31536000, immutable"
+REVALIDATED = "private, no-cache"  # ids begin at 1 in every database, so an address alone says nothing of the content
 
 
 class ThumbnailSize(IntEnum):
@@ -146,7 +146,7 @@ def read_original(server: ServerDep, session: Reader, image_id: int) -> FileResp
         server.blobs.path(image.sha256),
         filename=image.file_name.rpartition("/")[2],
         media_type="application/octet-stream",
-        headers={"Cache-Control": FOREVER, "ETag": f'"{image.sha256}"'},
+        headers={"Cache-Control": REVALIDATED, "ETag": f'"{image.sha256}"'},
     )
 
 
@@ -161,9 +161,9 @@ def read_display(
     image = images.get_image(session, image_id)
     tag = f'"{image.sha256}-display"'
     if if_none_match == tag:
-        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": FOREVER})
+        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": REVALIDATED})
     content, media_type = for_browser(server.blobs.read(image.sha256), max_pixels=server.settings.max_image_pixels)
-    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": FOREVER})
+    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": REVALIDATED})
 
 
 @router.get("/images/{image_id}/thumbnail", response_class=Response, responses={**PIXELS})
@@ -178,10 +178,10 @@ def read_thumbnail(
     image = images.get_image(session, image_id)
     tag = f'"{image.sha256}-{size.value}"'
     if if_none_match == tag:
-        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": FOREVER})
+        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": REVALIDATED})
     data = server.blobs.read(image.sha256)
     content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
-    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": FOREVER})
+    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": REVALIDATED})
 
 
 def _changes(given: ImagesChange | ImageChange) -> image_changes.ImageChanges:

@@ -7,9 +7,10 @@ from typing import get_args
 from fastapi import APIRouter
 
 from app import __version__
-from app.api.deps import ServerDep
+from app.api.deps import Reader, ServerDep
 from app.api.schemas.system import Configuration, Health, Limits
 from app.formats.exports import EXPORTS
+from app.services.installation import instance_of
 from app.vision.parameters import DetectionParameters, OperatingPoint
 
 router = APIRouter(tags=["system"])
@@ -22,11 +23,12 @@ def health() -> Health:
 
 
 @router.get("/configuration")
-def configuration(server: ServerDep) -> Configuration:
+def configuration(server: ServerDep, session: Reader) -> Configuration:
     """Return what a client must know before it shows anything."""
     settings = server.settings
     return Configuration(
         version=__version__,
+        instance=instance_of(session),
         limits=Limits.model_validate(settings),
         grace_days=settings.grace_days,
         run_defaults={**DetectionParameters().as_dict(), "camera": "joint", "discard": False},

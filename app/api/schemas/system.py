@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from pydantic import Field
+
 from app.api.schemas.base import Answer
 
 
@@ -27,6 +29,7 @@ class Configuration(Answer):
     """What the browser tool must know before it shows anything."""
 
     version: str
+    instance: str = Field(description="Tells this database from every other one, whatever address it is served at.")
     limits: Limits
     grace_days: int
     run_defaults: dict[str, Any]

@@ -613,6 +613,35 @@ export interface components {
         /**
          * CameraChange
          * @description What to change about a camera; ``reference: null`` clears it.
+         * @example {
+         *       "name": "front left",
+         *       "reference": {
+         *         "D": [
+         *           -0.37,
+         *           0.2,
+         *           0.001,
+         *           0.001,
+         *           -0.07
+         *         ],
+         *         "K": [
+         *           [
+         *             980,
+         *             0,
+         *             640
+         *           ],
+         *           [
+         *             0,
+         *             980,
+         *             360
+         *           ],
+         *           [
+         *             0,
+         *             0,
+         *             1
+         *           ]
+         *         ]
+         *       }
+         *     }
          */
         CameraChange: {
             /** Name */
@@ -664,6 +693,11 @@ export interface components {
             export_formats: string[];
             /** Grace Days */
             grace_days: number;
+            /**
+             * Instance
+             * @description Tells this database from every other one, whatever address it is served at.
+             */
+            instance: string;
             limits: components["schemas"]["Limits"];
             /** Local */
             local: boolean;
@@ -1558,6 +1592,12 @@ export interface components {
             /** Width */
             width: number;
         };
+        /**
+         * ThumbnailSize
+         * @description Longer side of a thumbnail, px.
+         * @enum {integer}
+         */
+        ThumbnailSize: 160 | 320 | 640;
         /**
          * Updated
          * @description How many were changed.
@@ -3289,7 +3329,7 @@ export interface operations {
     read_thumbnail_api_images__image_id__thumbnail_get: {
         parameters: {
             query?: {
-                size?: 160 | 320 | 640;
+                size?: components["schemas"]["ThumbnailSize"];
             };
             header?: {
                 "if-none-match"?: string | null;

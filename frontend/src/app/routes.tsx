@@ -18,7 +18,7 @@ export function makeRouter() {
         },
         {
           path: "/datasets/:slug",
-          lazy: async () => ({ Component: (await import("../pages/datasets/dataset_page")).DatasetPage }),
+          lazy: async () => ({ Component: (await import("../pages/dataset/dataset_page")).DatasetPage }),
         },
         {
           path: "/datasets/:slug/images/:imageId",
@@ -27,6 +27,10 @@ export function makeRouter() {
         {
           path: "/datasets/:slug/finished",
           lazy: async () => ({ Component: (await import("../pages/label/finished_page")).FinishedPage }),
+        },
+        {
+          path: "/docs/api",
+          lazy: async () => ({ Component: (await import("../pages/api_docs/api_docs_page")).ApiDocsPage }),
         },
         { path: "*", element: <NotFoundPage /> },
       ],

@@ -12,6 +12,10 @@ describe("the view follows a selected candidate", () => {
     expect(follow(viewport, box, screen)).toBe(viewport);
   });
 
+  it("not for one at the very edge of the screen", () => {
+    expect(follow(viewport, { minX: 900, minY: 10, maxX: 1000, maxY: 90 }, screen)).toBe(viewport);
+  });
+
   it("without zooming where it is off the screen", () => {
     const box = { minX: 1200, minY: 100, maxX: 1400, maxY: 180 };
     const view = follow(viewport, box, screen);
@@ -21,7 +25,7 @@ describe("the view follows a selected candidate", () => {
 
   it("and zooms in on a tiny one", () => {
     const box = { minX: 500, minY: 500, maxX: 510, maxY: 504 };
-    expect(follow(viewport, box, screen).scale).toBe(14);
+    expect(follow(viewport, box, screen).scale).toBe(12);
   });
 
   it("and zooms out where the candidate is larger than the screen", () => {

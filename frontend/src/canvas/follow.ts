@@ -1,14 +1,16 @@
 /** Where the view goes when a candidate is selected by key. */
 
-import { type Box, boxCentre, boxContains, boxExtent, clamp } from "./geometry";
+import { type Box, boxCentre, boxContains, boxExtent, clamp, growBox } from "./geometry";
 import { centreOn, MAX_SCALE, type Size, type Viewport, visibleBox } from "./viewport";
 
 /** Shorter than this on the screen, a candidate can't be judged (px). */
-const READABLE = 24;
+const READABLE = 14;
 /** What a candidate is enlarged to when it is too small (px). */
-const COMFORTABLE = 140;
-/** Free space around the candidate for it to count as seen, as a share of the screen. */
+const COMFORTABLE = 120;
+/** Free space around a candidate that is brought onto the screen, as a share of the screen. */
 const EDGE = 0.04;
+/** A candidate that sticks out by less still counts as seen (px). */
+const SLACK = 2;
 
 /**
  * The viewport that shows a box: the same one where the box is on the screen and large enough, else moved,
@@ -25,13 +27,8 @@ export function follow(viewport: Viewport, box: Box, screen: Size): Viewport {
     MAX_SCALE,
   );
   const tiny = onScreen < READABLE;
-  if (!tiny && boxContains(shrunk(visibleBox(viewport, screen)), box)) return viewport;
+  const seen = growBox(visibleBox(viewport, screen), SLACK / viewport.scale);
+  if (!tiny && boxContains(seen, box)) return viewport;
   const wanted = tiny ? COMFORTABLE / extent : viewport.scale;
   return centreOn(boxCentre(box), clamp(wanted, 1e-3, largest), screen);
-}
-
-function shrunk(box: Box): Box {
-  const dx = (box.maxX - box.minX) * EDGE;
-  const dy = (box.maxY - box.minY) * EDGE;
-  return { minX: box.minX + dx, minY: box.minY + dy, maxX: box.maxX - dx, maxY: box.maxY - dy };
 }

@@ -1,7 +1,7 @@
 /** One image on the screen: viewport, gestures and drawing together, without any framework. */
 
 import { follow } from "./follow";
-import { at, type Point } from "./geometry";
+import type { Point } from "./geometry";
 import { listenToGestures } from "./gestures";
 import type { CandidateLook } from "./layers/candidate_layer";
 import { Renderer } from "./renderer";
@@ -178,11 +178,4 @@ export class CanvasView {
     if (this.fitted) this.fit();
     else this.setViewport(this.viewport);
   }
-}
-
-/** The middle of a polyline, in image px. */
-export function middleOf(scene: Scene, index: number): Point {
-  const { coordinates, offsets } = scene.polylines;
-  const middle = Math.floor((at(offsets, index) + at(offsets, index + 1) - 1) / 2);
-  return { x: at(coordinates, 2 * middle), y: at(coordinates, 2 * middle + 1) };
 }

@@ -1,6 +1,6 @@
 /** The page's one outbox, on the browser's storage and network. */
 
-import { postDecisions } from "../api/endpoints";
+import { getConfiguration, postDecisions } from "../api/endpoints";
 import type { DecisionsStored } from "../api/types";
 import { Outbox } from "./outbox";
 import { memoryStorage, openOutboxStorage } from "./outbox_storage";
@@ -9,7 +9,7 @@ type StoredListener = (imageId: number, answer: DecisionsStored) => void;
 const storedListeners = new Set<StoredListener>();
 
 export const outbox = new Outbox({
-  storage: typeof indexedDB === "undefined" ? memoryStorage() : openOutboxStorage(indexedDB),
+  storage: typeof indexedDB === "undefined" ? memoryStorage() : openOutboxStorage(indexedDB, servedInstance),
   send: (imageId, decisions) => postDecisions(imageId, decisions),
   wait: waitForNetwork,
   onStored: (imageId, answer) => {
@@ -21,6 +21,10 @@ export const outbox = new Outbox({
 export function onDecisionsStored(listener: StoredListener): () => void {
   storedListeners.add(listener);
   return () => storedListeners.delete(listener);
+}
+
+async function servedInstance(): Promise<string> {
+  return (await getConfiguration()).instance;
 }
 
 function waitForNetwork(milliseconds: number): Promise<void> {

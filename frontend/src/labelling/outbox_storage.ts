@@ -18,14 +18,22 @@ const DATABASE = "clearlines-outbox";
 const STORE = "decisions";
 const BY_CLIENT_ID = "client_id";
 
-export function openOutboxStorage(factory: IDBFactory): OutboxStorage {
+/**
+ * Opens the browser's storage.
+ *
+ * @param instance Tells which of the server's databases the decisions are for: another one may be served at the
+ *   same address tomorrow, with the same ids.
+ */
+export function openOutboxStorage(factory: IDBFactory, instance: () => Promise<string>): OutboxStorage {
   let opened: Promise<IDBDatabase> | null = null;
 
   function database(): Promise<IDBDatabase> {
-    opened ??= open(factory).catch((error: unknown) => {
-      opened = null;
-      throw error;
-    });
+    opened ??= instance()
+      .then((name) => open(factory, `${DATABASE}-${name}`))
+      .catch((error: unknown) => {
+        opened = null;
+        throw error;
+      });
     return opened;
   }
 
@@ -64,9 +72,9 @@ export function openOutboxStorage(factory: IDBFactory): OutboxStorage {
   };
 }
 
-function open(factory: IDBFactory): Promise<IDBDatabase> {
+function open(factory: IDBFactory, name: string): Promise<IDBDatabase> {
   return new Promise((resolve, reject) => {
-    const request = factory.open(DATABASE, 1);
+    const request = factory.open(name, 1);
     request.onupgradeneeded = () => {
       const store = request.result.createObjectStore(STORE, { autoIncrement: true });
       store.createIndex(BY_CLIENT_ID, "decision.client_id", { unique: true });

@@ -121,7 +121,8 @@ export class UploadQueue {
   }
 
   private enqueue(items: readonly UploadItem[]): void {
-    for (const [slug, ofDataset] of Map.groupBy(items, (item) => item.slug)) {
+    for (const slug of new Set(items.map((item) => item.slug))) {
+      const ofDataset = items.filter((item) => item.slug === slug);
       for (const batch of makeBatches(ofDataset, this.dependencies.limits)) {
         this.waiting.push({ slug, items: batch, abort: new AbortController() });
       }

@@ -3,6 +3,7 @@ from __future__ import annotations
 import random
 
 import pytest
+from sqlalchemy import select
 
 from app.db.models import Decision, Image, Run, RunImage, Segment, SegmentState
 from app.services.candidates import current_segments, refresh_counts
@@ -90,7 +91,8 @@ def test_counts_are_the_current_segments(place, seed) -> None:
                 segment.retired_at = place.now
         for run_id in chance.sample(runs, 2):
             session.get_one(Run, run_id).deleted_at = place.now
-            refresh_counts(session, session.query(RunImage.image_id).filter_by(run_id=run_id).all() and ids)
+            refresh_counts(session, select(RunImage.image_id).where(RunImage.run_id == run_id))
+        refresh_counts(session, ids)
     with place.database.read() as session:
         images = {image.id: image for image in session.query(Image)}
     for image_id in ids:

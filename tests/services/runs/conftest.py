@@ -96,7 +96,17 @@ class Bench:
 
 @pytest.fixture
 def bench(database: Database, now: datetime) -> Bench:
-    """Two images of one camera, nothing done yet."""
+    """Two images of one camera, nothing done yet: on SQLite, then on PostgreSQL."""
+    return make_bench(database, now)
+
+
+@pytest.fixture
+def small_bench(sqlite_database: Database, now: datetime) -> Bench:
+    """The same on SQLite, for what doesn't depend on the kind of database."""
+    return make_bench(sqlite_database, now)
+
+
+def make_bench(database: Database, now: datetime) -> Bench:
     with database.write() as session:
         dataset = Dataset(slug="street", name="Street", created_at=now)
         session.add(dataset)

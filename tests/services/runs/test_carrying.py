@@ -64,7 +64,8 @@ def test_verdicts_follow_to_what_matches(bench) -> None:
     ]
 
 
-def test_a_rejected_line_that_is_not_found_again_goes(bench) -> None:
+def test_a_rejected_line_that_is_not_found_again_goes(small_bench) -> None:
+    bench = small_bench
     bench.detect(20, 40)
     image = bench.images[0]
     bench.decide(image, {bench.at(image, 20): "reject"})
@@ -82,7 +83,8 @@ def test_decisions_survive_any_number_of_runs(bench) -> None:
         assert bench.summary(run_id).changes.carried == 2
 
 
-def test_a_kept_line_that_was_missed_once_is_matched_when_found_again(bench) -> None:
+def test_a_kept_line_that_was_missed_once_is_matched_when_found_again(small_bench) -> None:
+    bench = small_bench
     bench.detect(20)
     image = bench.images[0]
     bench.decide(image, {bench.at(image, 20): "keep"})
@@ -92,7 +94,8 @@ def test_a_kept_line_that_was_missed_once_is_matched_when_found_again(bench) -> 
     assert bench.by_height(image) == {20.5: "keep", 100: "undecided"}
 
 
-def test_matching_is_one_to_one(bench) -> None:
+def test_matching_is_one_to_one(small_bench) -> None:
+    bench = small_bench
     bench.detect(20)
     image = bench.images[0]
     bench.decide(image, {bench.at(image, 20): "keep"})
@@ -159,7 +162,8 @@ def test_a_result_that_comes_twice_changes_nothing(bench) -> None:
         assert session.get_one(Image, first.image_id).revision == 1
 
 
-def test_a_matching_made_before_a_change_is_made_again(bench) -> None:
+def test_a_matching_made_before_a_change_is_made_again(small_bench) -> None:
+    bench = small_bench
     bench.detect(20, 40)
     image = bench.images[0]
     bench.decide(image, {bench.at(image, 20): "keep"})
@@ -193,7 +197,8 @@ def test_a_decision_for_a_replaced_candidate_goes_to_its_successor(bench, verdic
 
 
 @pytest.mark.parametrize(("verdict", "current"), [("keep", True), ("ambiguous", True), ("reject", False)])
-def test_a_decision_for_a_candidate_without_successor_is_not_lost(bench, verdict, current) -> None:
+def test_a_decision_for_a_candidate_without_successor_is_not_lost(small_bench, verdict, current) -> None:
+    bench = small_bench
     bench.detect(20)
     image = bench.images[0]
     old = bench.at(image, 20)

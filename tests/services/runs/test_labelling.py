@@ -32,7 +32,8 @@ def test_segments_tell_all_but_points(bench) -> None:
     assert second.box[1] == 40.0
 
 
-def test_what_fails_straightness_is_marked(bench) -> None:
+def test_what_fails_straightness_is_marked(small_bench) -> None:
+    bench = small_bench
     bench.detect(20, 40, 60)
     with bench.database.write() as session:
         for segment, value in zip(session.scalars(select(Segment).limit(3)), (0.49, 0.5, 0.9), strict=True):
@@ -57,14 +58,16 @@ def test_points_are_those_of_the_segments_in_their_order(bench) -> None:
         assert points[start].tolist() == [10.0, entry.box[1]]
 
 
-def test_an_image_without_segments_has_an_empty_answer(bench) -> None:
+def test_an_image_without_segments_has_an_empty_answer(small_bench) -> None:
+    bench = small_bench
     with bench.database.read() as session:
         content = points_of_image(session, bench.images[0])
     assert content == struct.pack("<4sIIII", b"CLP1", 0, 0, 0, 0)
 
 
 @pytest.mark.parametrize("read", [segments_of_image, points_of_image, history])
-def test_a_deleted_image_has_no_segments_to_read(bench, read) -> None:
+def test_a_deleted_image_has_no_segments_to_read(small_bench, read) -> None:
+    bench = small_bench
     with bench.database.write() as session:
         session.get_one(Image, bench.images[0]).deleted_at = bench.now
     with bench.database.read() as session, pytest.raises(NotFound):
@@ -91,7 +94,8 @@ def test_decisions_change_verdicts_and_stay_as_history(bench) -> None:
     assert (row.n_candidates, row.n_keep, row.n_reject, row.n_ambiguous, row.revision) == (2, 0, 1, 1, 1)
 
 
-def test_one_request_may_decide_twice_on_a_segment(bench) -> None:
+def test_one_request_may_decide_twice_on_a_segment(small_bench) -> None:
+    bench = small_bench
     bench.detect(20)
     image, segment = bench.images[0], bench.segments(bench.images[0])[0].id
     with bench.database.write() as session:
@@ -122,7 +126,8 @@ def test_a_decision_sent_again_changes_nothing(bench) -> None:
 
 
 @pytest.mark.parametrize("field", [{"verdict": "reject"}, {"segment_id": None}, {"group_id": str(uuid4())}])
-def test_a_client_id_with_other_content_is_a_conflict(bench, field) -> None:
+def test_a_client_id_with_other_content_is_a_conflict(small_bench, field) -> None:
+    bench = small_bench
     bench.detect(20, 40)
     image = bench.images[0]
     first, second = (entry.id for entry in bench.segments(image))
@@ -157,7 +162,8 @@ def test_a_segment_of_another_image_stops_all(bench) -> None:
         ({"group_id": "mine"}, "group_id"),
     ],
 )
-def test_decisions_that_cannot_be_are_refused(bench, fields, where) -> None:
+def test_decisions_that_cannot_be_are_refused(small_bench, fields, where) -> None:
+    bench = small_bench
     bench.detect(20)
     segment = bench.segments(bench.images[0])[0].id
     with pytest.raises(InvalidInput) as caught, bench.database.write() as session:
@@ -165,7 +171,8 @@ def test_decisions_that_cannot_be_are_refused(bench, fields, where) -> None:
     assert where in str(caught.value.where)
 
 
-def test_the_number_of_decisions_is_bounded(bench) -> None:
+def test_the_number_of_decisions_is_bounded(small_bench) -> None:
+    bench = small_bench
     with pytest.raises(InvalidInput), bench.database.write() as session:
         decide(session, bench.images[0], [], "owner", bench.now)
     many = [wish(1)] * (MOST_DECISIONS + 1)
@@ -202,7 +209,8 @@ def test_a_verdict_taken_back_opens_a_done_image(bench) -> None:
     assert bench.decide(image, {segment: "undecided"}).status == "open"
 
 
-def test_the_state_names_its_decision(bench) -> None:
+def test_the_state_names_its_decision(small_bench) -> None:
+    bench = small_bench
     bench.detect(20)
     image, segment = bench.images[0], bench.segments(bench.images[0])[0].id
     bench.decide(image, {segment: "keep"})

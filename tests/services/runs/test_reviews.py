@@ -26,7 +26,8 @@ def test_done_waits_for_every_verdict(bench) -> None:
     assert review(bench, "done").status == "done"
 
 
-def test_done_with_undecided_candidates_when_told_so(bench) -> None:
+def test_done_with_undecided_candidates_when_told_so(small_bench) -> None:
+    bench = small_bench
     bench.detect(20)
     assert review(bench, "done", allow_undecided=True).status == "done"
 
@@ -43,7 +44,8 @@ def test_an_image_without_candidates_is_done_once_pre_labelled(bench) -> None:
     assert review(bench, "done").status == "done"
 
 
-def test_discarded_keeps_its_reason_until_it_is_opened(bench) -> None:
+def test_discarded_keeps_its_reason_until_it_is_opened(small_bench) -> None:
+    bench = small_bench
     stored = review(bench, "discarded", reason="  blurred ")
     assert (stored.status, stored.reason, stored.person, stored.updated_at) == (
         "discarded",
@@ -65,7 +67,8 @@ def test_each_change_is_in_the_audit_once(bench) -> None:
     ]
 
 
-def test_what_cannot_be_is_refused(bench) -> None:
+def test_what_cannot_be_is_refused(small_bench) -> None:
+    bench = small_bench
     with pytest.raises(InvalidInput, match="no review status"):
         review(bench, "finished")
     with pytest.raises(InvalidInput, match="too long"):

@@ -44,12 +44,14 @@ def test_a_run_is_queued_over_all_images_that_are_not_deleted(bench) -> None:
     "parameters",
     [{"min_length": -1}, {"camera": "both"}, {"discard": "yes"}, {"shortest": 3}, {"operating_point": "x"}],
 )
-def test_parameters_that_cannot_be_are_refused(bench, parameters) -> None:
+def test_parameters_that_cannot_be_are_refused(small_bench, parameters) -> None:
+    bench = small_bench
     with pytest.raises(InvalidInput):
         bench.start(**parameters)
 
 
-def test_a_dataset_without_images_has_nothing_to_run_on(bench) -> None:
+def test_a_dataset_without_images_has_nothing_to_run_on(small_bench) -> None:
+    bench = small_bench
     with bench.database.write() as session:
         for image in bench.images:
             session.get_one(Image, image).deleted_at = bench.now
@@ -57,7 +59,8 @@ def test_a_dataset_without_images_has_nothing_to_run_on(bench) -> None:
         bench.start()
 
 
-def test_only_images_of_the_dataset_can_be_named(bench) -> None:
+def test_only_images_of_the_dataset_can_be_named(small_bench) -> None:
+    bench = small_bench
     with pytest.raises(InvalidInput) as caught:
         bench.start([bench.images[0], 999])
     assert caught.value.details == {"images": [999]}
@@ -85,7 +88,8 @@ def test_claims_count_attempts_and_start_the_run(bench) -> None:
     assert bench.claim() == []
 
 
-def test_older_runs_come_first(bench) -> None:
+def test_older_runs_come_first(small_bench) -> None:
+    bench = small_bench
     first, second = bench.start([bench.images[1]]), bench.start([bench.images[0]])
     with bench.database.read() as session:
         runs = {row: session.get_one(RunImage, row).run_id for row in (1, 2)}
@@ -125,7 +129,8 @@ def test_a_run_of_which_every_image_failed_has_failed(bench) -> None:
     assert summary.error["message"] == "none of its 2 images could be pre-labelled: it is broken"
 
 
-def test_nothing_to_retry_is_a_conflict(bench) -> None:
+def test_nothing_to_retry_is_a_conflict(small_bench) -> None:
+    bench = small_bench
     run_id = bench.detect(20)
     with pytest.raises(Conflict, match="done again"), bench.database.write() as session:
         retry_run(session, run_id, bench.now)
@@ -214,7 +219,8 @@ def test_a_restored_run_does_not_displace_a_later_one(bench) -> None:
         assert session.get_one(RunImage, current).run_id == second
 
 
-def test_lost_work_goes_back_until_its_attempts_are_used_up(bench) -> None:
+def test_lost_work_goes_back_until_its_attempts_are_used_up(small_bench) -> None:
+    bench = small_bench
     run_id = bench.start([bench.images[0]])
     for attempt in (1, 2):
         assert [claim.attempts for claim in bench.claim()] == [attempt]
@@ -231,7 +237,8 @@ def test_lost_work_goes_back_until_its_attempts_are_used_up(bench) -> None:
     assert row.error["code"] == "worker-died"
 
 
-def test_only_silent_work_is_taken_back_from_a_living_dispatcher(bench) -> None:
+def test_only_silent_work_is_taken_back_from_a_living_dispatcher(small_bench) -> None:
+    bench = small_bench
     bench.start()
     bench.claim()
     with bench.database.write() as session:
@@ -239,7 +246,8 @@ def test_only_silent_work_is_taken_back_from_a_living_dispatcher(bench) -> None:
         assert release_lost(session, 3, silent_since=bench.now + timedelta(seconds=1)) == 2
 
 
-def test_work_put_back_is_not_charged(bench) -> None:
+def test_work_put_back_is_not_charged(small_bench) -> None:
+    bench = small_bench
     run_id = bench.start([bench.images[0]])
     [claim] = bench.claim()
     with bench.database.write() as session:
@@ -272,7 +280,8 @@ def test_a_deleted_dataset_is_not_worked_on(bench) -> None:
             run_summary(session, 1, bench.now, grace=GRACE)
 
 
-def test_time_left_follows_the_pace_of_finished_images(bench) -> None:
+def test_time_left_follows_the_pace_of_finished_images(small_bench) -> None:
+    bench = small_bench
     run_id = bench.start(camera="per-image")
     first, _ = bench.claim()
     assert bench.summary(run_id, timedelta(seconds=5)).seconds_left is None

@@ -6,6 +6,8 @@ Revises:
 
 from __future__ import annotations
 
+from uuid import uuid4
+
 import sqlalchemy as sa
 from alembic import op
 
@@ -44,6 +46,12 @@ def upgrade() -> None:
         postgresql_where=sa.text("deleted_at IS NULL"),
     )
 
+    installations = op.create_table(
+        "installations",
+        sa.Column("instance", sa.String(length=36), nullable=False),
+        sa.PrimaryKeyConstraint("instance", name="pk_installations"),
+    )
+    op.bulk_insert(installations, [{"instance": str(uuid4())}])
     op.create_table(
         "cameras",
         sa.Column("id", sa.Integer(), nullable=False),
@@ -322,6 +330,7 @@ def downgrade() -> None:
         "runs",
         "events",
         "cameras",
+        "installations",
         "datasets",
         "blobs",
     ):

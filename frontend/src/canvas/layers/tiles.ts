@@ -9,8 +9,8 @@ const LINE_REACH = 5;
 /** A line is covered by this many boxes at most: one box around a diagonal would be mostly empty. */
 const PIECES = 10;
 /** Candidates per tile that can be drawn within one frame. */
-const CANDIDATES_PER_TILE = 110;
-const MOST_TILES = 32;
+const CANDIDATES_PER_TILE = 60;
+const MOST_TILES = 40;
 
 /** The canvas px that show an image box. */
 export function canvasBox(box: Box, viewport: Viewport, ratio: number, margin: number): Box {

@@ -10,7 +10,7 @@ import { outbox } from "../../labelling/outbox_start";
 import { Announcer } from "./announcer";
 import { CanvasRegion } from "./canvas_region";
 import { KeyList } from "./key_list";
-import { DoneBanner, LeftHint, NoCandidates } from "./notices";
+import { LeftHint, NoCandidates, ReviewBanner } from "./notices";
 import { SidePanel } from "./side_panel";
 import { StatusStrip } from "./status_strip";
 import { useImageBitmap } from "./use_image_bitmap";
@@ -83,7 +83,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           {store ? (
             <Banners
               store={store}
-              done={image.status === "done"}
+              image={image}
               leftHint={leftHint}
               onReopen={() => actions.setReview("open")}
               onReject={actions.rejectUndecided}
@@ -113,16 +113,16 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
 
 interface BannersProps {
   store: LabelStore;
-  done: boolean;
+  image: ImageDetail;
   leftHint: boolean;
   onReopen: () => void;
   onReject: () => void;
   onClose: () => void;
 }
 
-function Banners({ store, done, leftHint, onReopen, onReject, onClose }: BannersProps) {
+function Banners({ store, image, leftHint, onReopen, onReject, onClose }: BannersProps) {
   const { counts } = useLabelState(store);
-  if (done) return <DoneBanner kept={counts.keep} onReopen={onReopen} />;
+  if (image.status !== "open") return <ReviewBanner image={image} kept={counts.keep} onReopen={onReopen} />;
   if (leftHint && counts.undecided > 0) {
     return <LeftHint undecided={counts.undecided} onReject={onReject} onClose={onClose} />;
   }

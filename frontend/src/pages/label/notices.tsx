@@ -11,12 +11,21 @@ import { Keys } from "../../design/kbd";
 import { EmptyState, ErrorState } from "../../design/states";
 import { toast } from "../../design/toast";
 
-export function DoneBanner({ kept, onReopen }: { kept: number; onReopen: () => void }) {
+interface ReviewBannerProps {
+  image: ImageDetail;
+  kept: number;
+  onReopen: () => void;
+}
+
+/** Says that the image isn't open any more. */
+export function ReviewBanner({ image, kept, onReopen }: ReviewBannerProps) {
+  const done = image.status === "done";
   return (
-    <div className="banner banner--success" role="status">
-      <Icon name="check" />
+    <div className={`banner${done ? " banner--success" : ""}`} role="status">
+      <Icon name={done ? "check" : "cross"} />
       <span>
-        <strong>Done.</strong> {formatQuantity(kept, "line")} kept.
+        <strong>{done ? "Done." : "Discarded."}</strong>{" "}
+        {done ? `${formatQuantity(kept, "line")} kept.` : image.reason}
       </span>
       <Button small tone="quiet" onClick={onReopen}>
         Reopen

@@ -85,7 +85,7 @@ export function SidePanel({ slug, image, store, scene, bitmap, actions, panelRef
           </Button>
         ) : (
           <Button tone="primary" className="label-panel__wide" onClick={actions.finish}>
-            {image.status === "done" ? "Next image" : "Image done"} <Keys keys={["Enter"]} />
+            {image.status === "open" ? "Image done" : "Next image"} <Keys keys={["Enter"]} />
           </Button>
         )}
       </footer>

@@ -66,11 +66,11 @@ export function useLabelActions(parts: ActionParts): PageActions {
 
     async function finish(): Promise<void> {
       if (image === undefined || store === null) return;
-      if (store.selectFirstUndecided()) {
+      if (image.status !== "discarded" && store.selectFirstUndecided()) {
         setLeftHint(true);
         return;
       }
-      if (image.status === "done" || (await setReview("done"))) await goToNextOpen();
+      if (image.status !== "open" || (await setReview("done"))) await goToNextOpen();
     }
 
     const latestGroup = () => store?.getState().history.done.at(-1)?.id;

@@ -10,7 +10,7 @@ import type { LabelStore } from "../../labelling/label_store";
 import { openLabelStore } from "../../labelling/open_store";
 import { onDecisionsStored, outbox } from "../../labelling/outbox_start";
 import { readPreferences } from "../../labelling/preferences";
-import { Stopwatch } from "../../labelling/stopwatch";
+import { stopwatch } from "../../labelling/stopwatch_start";
 import { imageLoader } from "./use_image_bitmap";
 
 const POLL = 1_500;
@@ -80,18 +80,10 @@ function openStore(annotations: Annotations): LabelStore {
     pending: outbox.pendingFor(annotations.imageId),
     order,
     shown,
-    stopwatch: makeStopwatch(),
+    stopwatch,
     newId: () => crypto.randomUUID(),
     record: (decisions) => outbox.add(annotations.imageId, decisions),
   });
-}
-
-function makeStopwatch(): Stopwatch {
-  const stopwatch = new Stopwatch(() => performance.now());
-  document.addEventListener("visibilitychange", () =>
-    document.visibilityState === "hidden" ? stopwatch.hide() : stopwatch.show(),
-  );
-  return stopwatch;
 }
 
 function isUnderWay(image: ImageDetail | undefined): boolean {

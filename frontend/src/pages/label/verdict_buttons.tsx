@@ -1,6 +1,7 @@
 import type { Verdict } from "../../api/types";
 import { Icon, type IconName } from "../../design/icons";
 import { Keys } from "../../design/kbd";
+import "./verdict_buttons.css";
 
 const BUTTONS: readonly { verdict: Verdict; label: string; caps: string; icon: IconName }[] = [
   { verdict: "keep", label: "Keep", caps: "K", icon: "check" },

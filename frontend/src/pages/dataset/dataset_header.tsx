@@ -1,0 +1,134 @@
+import { type ReactNode, useState } from "react";
+import { useNavigate } from "react-router";
+import type { Dataset } from "../../api/types";
+import { Button } from "../../design/button";
+import { Ellipsis } from "../../design/ellipsis";
+import { formatDay, formatQuantity } from "../../design/format";
+import { Icon } from "../../design/icons";
+import { InlineEdit } from "../../design/inline_edit";
+import { Keys } from "../../design/kbd";
+import { Popover } from "../../design/popover";
+import { VerdictBar } from "../../design/progress";
+import { ReviewBar, reviewText } from "../../design/review_bar";
+import { FileButtons } from "../../uploads/file_buttons";
+import type { Picked } from "../../uploads/picked_files";
+import { useDatasetActions } from "../datasets/use_dataset_actions";
+import { verdictText } from "../verdict_text";
+
+interface DatasetHeaderProps {
+  dataset: Dataset;
+  running: boolean;
+  prelabelOpen: boolean;
+  onLabel: () => void;
+  onPrelabel: () => void;
+  onPicked: (picked: Picked) => void;
+  exportMenu: ReactNode;
+}
+
+export function DatasetHeader(props: DatasetHeaderProps) {
+  const { dataset, running, prelabelOpen, onLabel, onPrelabel, onPicked, exportMenu } = props;
+  const { images, candidates, reviewed, verdicts } = dataset;
+  const labelFirst = candidates > 0 || running;
+  return (
+    <header className="dataset-header">
+      <div className="dataset-header__main">
+        <Title dataset={dataset} />
+        <p className="muted numeric">
+          {formatQuantity(images, "image")}
+          {candidates > 0 ? ` · ${formatQuantity(candidates, "candidate")}` : null} · created{" "}
+          {formatDay(dataset.created_at)}
+        </p>
+      </div>
+      <div className="dataset-header__actions">
+        {images > 0 ? (
+          <>
+            <Button
+              tone={labelFirst ? "primary" : "default"}
+              icon="lines"
+              aria-keyshortcuts="L"
+              onClick={onLabel}
+            >
+              Label <Keys keys={["L"]} />
+            </Button>
+            <Button
+              tone={labelFirst ? "default" : "primary"}
+              icon="play"
+              aria-expanded={prelabelOpen}
+              onClick={onPrelabel}
+            >
+              Pre-label
+            </Button>
+            {exportMenu}
+            <Popover label="Add images" icon="plus">
+              {(close) => (
+                <div className="add-images">
+                  <p className="muted">Or drop files, folders or zips anywhere on the page.</p>
+                  <FileButtons
+                    onPicked={(picked) => {
+                      close();
+                      onPicked(picked);
+                    }}
+                  />
+                </div>
+              )}
+            </Popover>
+          </>
+        ) : null}
+        <More dataset={dataset} />
+      </div>
+      {images > 0 ? (
+        <div className="dataset-header__measures">
+          <div>
+            <ReviewBar counts={reviewed} />
+            <p className="muted numeric">{reviewText(reviewed)}</p>
+          </div>
+          <div>
+            <VerdictBar counts={verdicts} />
+            <p className="muted numeric">{verdictText(verdicts)}</p>
+          </div>
+        </div>
+      ) : null}
+    </header>
+  );
+}
+
+function Title({ dataset }: { dataset: Dataset }) {
+  const [renaming, setRenaming] = useState(false);
+  const { rename } = useDatasetActions();
+  if (renaming) {
+    return (
+      <InlineEdit
+        label="Name of the dataset"
+        value={dataset.name}
+        close={() => setRenaming(false)}
+        save={(name) => rename(dataset, name)}
+      />
+    );
+  }
+  return (
+    <h1 className="dataset-header__title">
+      <button type="button" title="Rename" onClick={() => setRenaming(true)}>
+        <Ellipsis text={dataset.name} end={12} />
+        <Icon name="pencil" />
+      </button>
+    </h1>
+  );
+}
+
+function More({ dataset }: { dataset: Dataset }) {
+  const { remove } = useDatasetActions();
+  const navigate = useNavigate();
+  return (
+    <Popover label="More" icon="more" iconOnly tone="quiet">
+      {() => (
+        <button
+          type="button"
+          className="menu-item menu-item--danger"
+          onClick={async () => (await remove(dataset)) && navigate("/")}
+        >
+          <Icon name="trash" /> Delete this dataset
+        </button>
+      )}
+    </Popover>
+  );
+}
