@@ -8,7 +8,7 @@ from typing import Any
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Dataset, Image, Review, RunImage
+from app.db.models import CameraEstimate, Dataset, Image, Review, RunImage
 from app.services.cameras import latest_estimates
 from app.services.image_summaries import ImageSummary, image_summary
 from app.services.run_briefs import RunBrief, run_briefs
@@ -46,7 +46,8 @@ class ImageDetail(ImageSummary):
     """An image with all that the label page shows around it.
 
     Attributes:
-        camera_estimate: Distortion of its camera as the newest run estimated it (``DistortionEstimate.as_dict``).
+        camera_estimate: Distortion that its candidates were judged under, else its camera's newest
+            (``DistortionEstimate.as_dict``).
         run: The run that its current candidates come from.
         changes: What that run changed for the decisions made before.
     """
@@ -76,10 +77,19 @@ def image_detail(session: Session, image: Image) -> ImageDetail:
         next_open_id=beside.next_open_id,
         position=beside.position,
         total=beside.total,
-        camera_estimate=latest_estimates(session, [image.camera_id]).get(image.camera_id),
+        camera_estimate=_lens_of(session, image, work),
         run=run_briefs(session, [work.run_id]).get(work.run_id) if work else None,
         changes=work.changes if work else None,
     )
+
+
+def _lens_of(session: Session, image: Image, work: RunImage | None) -> dict[str, Any] | None:
+    """Return the distortion that the image's candidates were judged under, else its camera's newest one."""
+    if work is not None and work.distortion is not None:
+        return work.distortion
+    if work is not None and work.camera_estimate_id is not None:
+        return session.get_one(CameraEstimate, work.camera_estimate_id).distortion
+    return latest_estimates(session, [image.camera_id]).get(image.camera_id)
 
 
 def neighbours(session: Session, image: Image) -> Neighbours:

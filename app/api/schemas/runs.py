@@ -41,6 +41,7 @@ class RunChanges(Answer):
     kept_unmatched: int = Field(0, description="Kept or ambiguous segments without a match; they stay.")
     already_there: int = Field(0, description="Candidates that an imported or hand-drawn segment covers already.")
     retired: int = Field(0, description="Older candidates that the new ones replaced.")
+    discarded: int = Field(0, description="Candidates that failed straightness and were dropped, if the run was told so.")
     reopened: int = Field(0, description="Images that were done and have new candidates.")
 
 

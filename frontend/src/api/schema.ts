@@ -1432,6 +1432,12 @@ export interface components {
              */
             carried: number;
             /**
+             * Discarded
+             * @description Candidates that failed straightness and were dropped, if the run was told so.
+             * @default 0
+             */
+            discarded: number;
+            /**
              * Kept Unmatched
              * @description Kept or ambiguous segments without a match; they stay.
              * @default 0

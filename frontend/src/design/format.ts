@@ -34,6 +34,13 @@ export function splitForEllipsis(name: string, end = 10): [string, string] {
   return [characters.slice(0, -end).join(""), characters.slice(-end).join("")];
 }
 
+/** A message of the server as a sentence; it gives them without capital letter and full stop. */
+export function sentence(text: string): string {
+  const trimmed = text.trim();
+  const ended = /[.!?:]$/.test(trimmed) ? trimmed : `${trimmed}.`;
+  return ended.charAt(0).toUpperCase() + ended.slice(1);
+}
+
 /** "1.2 MB/s" for bytes per second. */
 export function formatSpeed(bytesPerSecond: number): string {
   return `${formatBytes(Math.round(bytesPerSecond))}/s`;

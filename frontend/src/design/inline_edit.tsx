@@ -1,5 +1,6 @@
 import { type FormEvent, useEffect, useRef, useState } from "react";
 import { Button } from "./button";
+import { sentence } from "./format";
 
 interface InlineEditProps {
   /** Accessible name of the field. */
@@ -35,7 +36,7 @@ export function InlineEdit(props: InlineEditProps) {
       await save(wanted);
       close();
     } catch (error) {
-      setProblem(error instanceof Error ? error.message : String(error));
+      setProblem(sentence(error instanceof Error ? error.message : String(error)));
       setBusy(false);
       input.current?.focus();
     }

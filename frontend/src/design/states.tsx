@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { asProblem } from "../api/problem";
 import { Button } from "./button";
+import { sentence } from "./format";
 import { Icon, type IconName } from "./icons";
 
 interface EmptyStateProps {
@@ -44,7 +45,7 @@ export function ErrorState({ error, title, onRetry, actions }: ErrorStateProps) 
         <Icon name="warning" size={22} />
       </span>
       <h2>{problem.title}</h2>
-      <p className="state__text">{problem.message}</p>
+      <p className="state__text">{sentence(problem.message)}</p>
       {facts.length > 0 ? (
         <dl className="state__facts">
           {facts.map(([name, text]) => (
@@ -55,7 +56,7 @@ export function ErrorState({ error, title, onRetry, actions }: ErrorStateProps) 
           ))}
         </dl>
       ) : null}
-      {problem.hint ? <p className="state__text">{problem.hint}</p> : null}
+      {problem.hint ? <p className="state__text">{sentence(problem.hint)}</p> : null}
       <div className="state__actions">
         {onRetry ? (
           <Button icon="retry" onClick={onRetry}>

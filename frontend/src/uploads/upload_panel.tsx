@@ -1,7 +1,14 @@
 import { useState } from "react";
 import { Button, IconButton } from "../design/button";
 import { Ellipsis } from "../design/ellipsis";
-import { formatBytes, formatCount, formatDuration, formatQuantity, formatSpeed } from "../design/format";
+import {
+  formatBytes,
+  formatCount,
+  formatDuration,
+  formatQuantity,
+  formatSpeed,
+  sentence,
+} from "../design/format";
 import { Icon, type IconName } from "../design/icons";
 import { Progress } from "../design/progress";
 import type { UploadItem, UploadSnapshot, UploadState } from "./upload_queue";
@@ -97,8 +104,7 @@ function FileRow({ item }: { item: Readonly<UploadItem> }) {
       <span className="upload-file__state numeric">{item.state === "sending" ? sending : text}</span>
       {item.error ? (
         <p className="upload-file__error">
-          {item.error.message}
-          {item.error.hint ? ` - ${item.error.hint}` : null}
+          {sentence(item.error.message)} {item.error.hint ? sentence(item.error.hint) : null}
         </p>
       ) : null}
     </li>

@@ -5,7 +5,7 @@ import { asProblem, problemFrom } from "../../api/problem";
 import { configurationQuery, datasetQuery } from "../../api/queries";
 import type { Dataset } from "../../api/types";
 import { Button } from "../../design/button";
-import { formatCount } from "../../design/format";
+import { formatCount, sentence } from "../../design/format";
 import { Popover } from "../../design/popover";
 import { saveAs } from "./save_as";
 
@@ -59,7 +59,7 @@ function ExportForm({ dataset, onShowOpen, close }: ExportMenuProps & { close: (
       }
     } catch (error) {
       const { message, hint } = asProblem(error);
-      setProblem([message, hint].filter(Boolean).join(" "));
+      setProblem([message, hint].flatMap((text) => (text ? [sentence(text)] : [])).join(" "));
     }
     setBusy(false);
   };

@@ -4,7 +4,7 @@ import { thumbnailUrl } from "../../api/endpoints";
 import type { ImageSummary } from "../../api/types";
 import { PrelabelBadge, ReviewBadge } from "../../design/badge";
 import { Ellipsis } from "../../design/ellipsis";
-import { formatCount, formatQuantity } from "../../design/format";
+import { formatCount, formatQuantity, sentence } from "../../design/format";
 import { Icon } from "../../design/icons";
 import { VerdictBar } from "../../design/progress";
 import { verdictText } from "../verdict_text";
@@ -88,7 +88,7 @@ function Thumbnail({ id, size }: { id: number; size: 160 | 320 | 640 }) {
 
 function State({ image }: { image: ImageSummary }) {
   if (image.prelabel === "failed") {
-    const reason = image.error?.message ?? "Pre-labelling failed";
+    const reason = sentence(image.error?.message ?? "Pre-labelling failed");
     return (
       <span className="image-tile__failure" title={reason}>
         <Icon name="warning" size={12} /> <span>{reason}</span>

@@ -5,7 +5,7 @@ import { asProblem } from "../../api/problem";
 import { configurationQuery, keys } from "../../api/queries";
 import type { Configuration, Dataset } from "../../api/types";
 import { Button } from "../../design/button";
-import { formatCount, formatQuantity } from "../../design/format";
+import { formatCount, formatQuantity, sentence } from "../../design/format";
 import { Segmented } from "../../design/segmented";
 import { imageIds } from "./use_images";
 
@@ -193,5 +193,7 @@ function PrelabelForm(props: PrelabelPanelProps & { configuration: Configuration
 
 function problemText(error: unknown): string {
   const { message, expected, hint } = asProblem(error);
-  return [message, expected ? `Expected: ${expected}.` : null, hint].filter(Boolean).join(" ");
+  return [message, expected ? `Expected: ${expected}` : null, hint]
+    .flatMap((text) => (text ? [sentence(text)] : []))
+    .join(" ");
 }

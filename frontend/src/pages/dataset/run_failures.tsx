@@ -4,7 +4,7 @@ import { listRunImages } from "../../api/endpoints";
 import type { Run } from "../../api/types";
 import { Button } from "../../design/button";
 import { Ellipsis } from "../../design/ellipsis";
-import { formatQuantity } from "../../design/format";
+import { formatQuantity, sentence } from "../../design/format";
 
 /** The images of a run that failed, each with its reason. */
 export function RunFailures({ slug, run }: { slug: string; run: Run }) {
@@ -25,8 +25,8 @@ export function RunFailures({ slug, run }: { slug: string; run: Run }) {
               <Ellipsis text={image.name} end={14} />
             </Link>
             <span>
-              {error?.message ?? "No reason was given"}
-              {error?.hint ? <span className="muted"> - {error.hint}</span> : null}
+              {sentence(error?.message ?? "No reason was given")}
+              {error?.hint ? <span className="muted"> {sentence(error.hint)}</span> : null}
               {attempts > 1 ? <span className="muted numeric"> ({attempts} attempts)</span> : null}
             </span>
           </li>

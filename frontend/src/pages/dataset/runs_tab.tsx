@@ -83,7 +83,10 @@ function RunCard({ slug, run }: { slug: string; run: Run }) {
         <Fact name="Candidates" value={formatCount(run.candidates)} />
         <Fact name="Time" value={timeText(run)} />
         <Fact name="Parameters" value={parametersText(run.parameters)} />
-        <Fact name="What changed" value={changesText(run.changes) || "Nothing was decided before"} />
+        <Fact
+          name="What changed"
+          value={changesText(run.changes) || (active ? "Not known yet" : "Nothing was there before")}
+        />
       </dl>
       {run.error ? <p className="field__error">{run.error.message}</p> : null}
       {counts.failed > 0 ? <RunFailures slug={slug} run={run} /> : null}

@@ -4,7 +4,7 @@ import { createDataset, deleteDataset, renameDataset, restoreDataset } from "../
 import { RequestFailed } from "../../api/problem";
 import { keys } from "../../api/queries";
 import type { Dataset } from "../../api/types";
-import { formatDay } from "../../design/format";
+import { formatDay, sentence } from "../../design/format";
 import { toast } from "../../design/toast";
 import { freeNames } from "./free_names";
 
@@ -73,5 +73,5 @@ export function useDatasetActions() {
 }
 
 export function failed(error: unknown): void {
-  toast({ tone: "danger", message: error instanceof Error ? error.message : String(error) });
+  toast({ tone: "danger", message: sentence(error instanceof Error ? error.message : String(error)) });
 }

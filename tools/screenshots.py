@@ -1,0 +1,100 @@
+"""Make the pictures of the documentation: the demo, served for real, in a real browser."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+ROOT = Path(__file__).resolve().parent.parent
+PICTURES = ROOT / "docs" / "pictures"
+PORT = 8799
+ADDRESS = f"http://127.0.0.1:{PORT}"
+WIDE = (1440, 900)
+NARROW = (900, 700)
+
+
+def get(path: str) -> Any:
+    with urllib.request.urlopen(f"{ADDRESS}/api{path}", timeout=30) as answer:
+        return json.load(answer)
+
+
+def wait_for_candidates(slug: str) -> None:
+    """Wait until the server answers and the demo's run is done."""
+    deadline = time.monotonic() + 300
+    while time.monotonic() < deadline:
+        try:
+            if get(f"/datasets/{slug}")["latest_run"]["status"] == "done":
+                return
+        except (urllib.error.URLError, OSError, TypeError):
+            pass
+        time.sleep(0.5)
+    raise SystemExit("the demo didn't get ready")
+
+
+def open_page(browser: Browser, path: str, *, size: tuple[int, int] = WIDE, dark: bool = False) -> Page:
+    scheme = "dark" if dark else "light"
+    page = browser.new_page(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    page.goto(ADDRESS + path)
+    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(800)
+    return page
+
+
+def take(page: Page, name: str) -> None:
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    page.wait_for_timeout(300)
+    page.screenshot(path=PICTURES / f"{name}.png")
+    page.close()
+    print(PICTURES / f"{name}.png")
+
+
+def take_all(browser: Browser, slug: str) -> None:
+    images = get(f"/datasets/{slug}/images")["items"]
+    label = f"/datasets/{slug}/images"
+    page = open_page(browser, f"{label}/{images[0]['id']}")
+    for key in "kkxkkakkkxkk":  # so that every verdict is seen
+        page.keyboard.press(key)
+    page.keyboard.press("Escape")
+    take(page, "label")
+    page = open_page(browser, f"{label}/{images[5]['id']}", dark=True)
+    page.keyboard.press("k")
+    page.keyboard.press("Shift+?")
+    take(page, "label-keys-dark")
+    take(open_page(browser, f"{label}/{images[8]['id']}", size=NARROW), "label-narrow")
+    take(open_page(browser, "/"), "datasets")
+    take(open_page(browser, f"/datasets/{slug}"), "dataset")
+    take(open_page(browser, f"/datasets/{slug}?tab=runs"), "runs")
+    take(open_page(browser, f"/datasets/{slug}?tab=cameras"), "cameras")
+    take(open_page(browser, "/docs/api"), "api")
+
+
+def main() -> None:
+    found = subprocess.run([sys.executable, ROOT / "tools" / "browser.py"], check=True, capture_output=True, text=True)
+    clearlines = Path(sys.executable).with_name("clearlines")
+    with tempfile.TemporaryDirectory() as folder:
+        command = [clearlines, "demo", "--data", folder, "--port", str(PORT), "--no-browser"]
+        server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            wait_for_candidates("demo-streets")
+            with sync_playwright() as playwright:
+                browser = playwright.chromium.launch(
+                    executable_path=found.stdout.strip(), args=["--no-sandbox", "--disable-background-networking"]
+                )
+                take_all(browser, "demo-streets")
+                browser.close()
+        finally:
+            server.terminate()
+            server.wait()
+
+
+if __name__ == "__main__":
+    main()
