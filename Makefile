@@ -56,7 +56,7 @@ lock:
 	test -x "$(UV)" || { $(PYTHON) -m venv .tools && .tools/bin/python -m pip install --quiet "uv>=0.5"; }
 	$(UV) pip compile --quiet --universal --python-version 3.11 --extra dev --generate-hashes --no-emit-index-url \
 		--no-emit-find-links --custom-compile-command "make lock" --output-file requirements.lock pyproject.toml $(ARGS)
-	cd frontend && npm install --package-lock-only --omit-lockfile-registry-resolved
+	$(BIN)/python tools/lock_frontend.py
 
 clean:
 	rm -rf .venv .tools app/static frontend/node_modules dist

@@ -20,6 +20,7 @@ export function changesText(changes: RunChanges): string {
   if (changes.already_there > 0)
     parts.push(`${formatCount(changes.already_there)} covered by labels already`);
   if (changes.retired > 0) parts.push(`${formatQuantity(changes.retired, "older candidate")} replaced`);
+  if (changes.discarded > 0) parts.push(`${formatQuantity(changes.discarded, "bent candidate")} discarded`);
   if (changes.reopened > 0) parts.push(`${formatQuantity(changes.reopened, "image")} reopened`);
   return parts.join(", ");
 }

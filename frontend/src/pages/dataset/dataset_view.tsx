@@ -1,5 +1,5 @@
 import { useQueryClient } from "@tanstack/react-query";
-import { useEffect, useState } from "react";
+import { useState } from "react";
 import { Link, useNavigate, useSearchParams } from "react-router";
 import { listImages } from "../../api/endpoints";
 import { keys } from "../../api/queries";
@@ -19,6 +19,7 @@ import { ImagesTab } from "./images_tab";
 import { PrelabelPanel } from "./prelabel_panel";
 import { RunStrip } from "./run_strip";
 import { RunsTab } from "./runs_tab";
+import { useFollow } from "./use_follow";
 import { useRuns } from "./use_runs";
 
 const COUNTS_MS = 2_000;
@@ -44,9 +45,7 @@ export function DatasetView({ dataset }: { dataset: Dataset }) {
   };
   useHotkeys({
     l: () => void label(),
-    enter: (event) => {
-      if (event.target === document.body) void label();
-    },
+    enter: () => void label(),
   });
   const pick = (picked: Picked) => startUpload(slug, picked);
   const openPrelabel = (ids: number[] = []) => {
@@ -67,7 +66,7 @@ export function DatasetView({ dataset }: { dataset: Dataset }) {
       />
       {prelabelling ? (
         <PrelabelPanel
-          key={prelabelling.ids.join()}
+          key={prelabelling.ids.length}
           dataset={dataset}
           selected={prelabelling.ids}
           onClose={() => setPrelabelling(null)}
@@ -118,13 +117,8 @@ function Tabs({ tab, images, runs }: { tab: Tab; images: number; runs: number | 
 /** While a run goes on, the dataset's own counts follow it, at a slower pace. */
 function useCountsFollow(slug: string, active: Run | null): void {
   const client = useQueryClient();
-  const progress = active ? finishedCount(active) : null;
-  useEffect(() => {
-    if (progress === null) return;
-    const timer = setTimeout(() => {
-      void client.invalidateQueries({ queryKey: keys.dataset(slug), exact: true });
-      void client.invalidateQueries({ queryKey: keys.facets(slug) });
-    }, COUNTS_MS);
-    return () => clearTimeout(timer);
-  }, [client, slug, progress]);
+  useFollow(active ? `${active.id} ${finishedCount(active)}` : null, COUNTS_MS, () => {
+    void client.invalidateQueries({ queryKey: keys.dataset(slug), exact: true });
+    void client.invalidateQueries({ queryKey: keys.facets(slug) });
+  });
 }

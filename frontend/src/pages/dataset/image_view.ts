@@ -59,8 +59,8 @@ export const EVERYTHING: Omit<ImageView, "sort"> = {
 
 /** True where the view may leave out images. */
 export function isFiltered(view: ImageView): boolean {
-  const { sort: _, ...filters } = view;
-  return Object.values(filters).some((value) => value !== null && value !== "");
+  const { sort: _, search, ...filters } = view;
+  return search !== "" || Object.values(filters).some((value) => value !== null);
 }
 
 export function toFilter({ status, search, ...rest }: ImageView): ImageFilter {

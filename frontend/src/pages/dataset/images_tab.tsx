@@ -16,6 +16,7 @@ import { ImageFilters } from "./image_filters";
 import { ImageGrid } from "./image_grid";
 import { EVERYTHING, type ImageView, isFiltered, readView, toFilter, writeView } from "./image_view";
 import { all, NOTHING_SELECTED, type Selection } from "./selection";
+import { useFollow } from "./use_follow";
 import { useGridSize } from "./use_grid_size";
 import { SCROLLER } from "./use_grid_view";
 import { useImageActions } from "./use_image_actions";
@@ -153,16 +154,21 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
   );
 }
 
-/** While a run goes on, what is in view is asked for again each time that images were finished, and at the end. */
+/** While a run goes on, what is in view is asked for again each time that images were finished. */
 function useRefreshWhile(active: Run | null, refresh: () => Promise<void>): void {
-  const latest = useRef(refresh);
-  latest.current = refresh;
-  const progress = active ? `${active.id} ${finishedCount(active)} ${active.counts.running}` : "";
+  const follow = () => void refresh().catch(() => undefined);
+  useFollow(
+    active ? `${active.id} ${finishedCount(active)} ${active.counts.running}` : null,
+    REFRESH_MS,
+    follow,
+  );
+  const first = useRef(follow);
+  first.current = follow;
   useEffect(() => {
-    // What was changed on another page, by labelling say, is out of date as well.
-    const timer = setTimeout(() => latest.current().catch(() => undefined), progress === "" ? 0 : REFRESH_MS);
+    // What another page changed, by labelling say, is out of date as well.
+    const timer = setTimeout(() => first.current());
     return () => clearTimeout(timer);
-  }, [progress]);
+  }, []);
 }
 
 function useSelectAllKey(selectAll: () => Promise<void>): void {

@@ -7,6 +7,7 @@ import type { Configuration, Dataset } from "../../api/types";
 import { Button } from "../../design/button";
 import { formatCount, formatQuantity, sentence } from "../../design/format";
 import { Segmented } from "../../design/segmented";
+import { ErrorState } from "../../design/states";
 import { imageIds } from "./use_images";
 
 const OPERATING_POINTS: Record<string, string> = {
@@ -32,6 +33,8 @@ export function PrelabelPanel(props: PrelabelPanelProps) {
     <section className="prelabel-panel card" aria-label="Pre-label">
       {configuration.data ? (
         <PrelabelForm {...props} configuration={configuration.data} />
+      ) : configuration.isError ? (
+        <ErrorState error={configuration.error} onRetry={() => configuration.refetch()} />
       ) : (
         <div className="skeleton prelabel-panel__loading" />
       )}

@@ -19,10 +19,12 @@ export function RunStrip({ slug, run }: { slug: string; run: Run }) {
     <section className="run-strip card" aria-label="Pre-labelling">
       <div className="run-strip__text">
         <strong>{run.status === "queued" ? "Waiting to pre-label" : "Pre-labelling"}</strong>
-        <span className="muted numeric" aria-live="polite">
-          {parts.join(" · ")}
-        </span>
+        <span className="muted numeric">{parts.join(" · ")}</span>
       </div>
+      {/* Read aloud in steps, not with each image. */}
+      <span className="visually-hidden" aria-live="polite">
+        {Math.floor((10 * over) / Math.max(1, total)) * 10} % pre-labelled
+      </span>
       <Button small icon="stop" onClick={() => cancel(run.id)}>
         Cancel
       </Button>

@@ -9,8 +9,9 @@ interface Measured {
 }
 
 export const SCROLLER = ".frame__content";
-/** What sticks to the top and bottom of the page covers tiles. */
-const COVERED = { top: 64, bottom: 72 };
+/** What sticks to the top of the page covers tiles, and so does the bar at its bottom, by so many px. */
+const STICKY = ".image-filters";
+const COVERED_BELOW = 72;
 
 /** Measures the grid and the part of it that is in view, and follows both. */
 export function useGridView(
@@ -60,8 +61,9 @@ export function useGridView(
       const scroller = grid?.closest<HTMLElement>(SCROLLER);
       if (!grid || !scroller) return;
       const top = tilePlace(layout, index).top;
-      const viewTop = scroller.getBoundingClientRect().top - grid.getBoundingClientRect().top + COVERED.top;
-      const viewEnd = viewTop + scroller.clientHeight - COVERED.top - COVERED.bottom;
+      const covered = scroller.querySelector(STICKY)?.clientHeight ?? 0;
+      const viewTop = scroller.getBoundingClientRect().top - grid.getBoundingClientRect().top + covered;
+      const viewEnd = viewTop + scroller.clientHeight - covered - COVERED_BELOW;
       if (top < viewTop) scroller.scrollTop -= viewTop - top;
       else if (top + layout.tileHeight > viewEnd) scroller.scrollTop += top + layout.tileHeight - viewEnd;
     },

@@ -76,7 +76,9 @@ export function DatasetCard({ dataset }: { dataset: Dataset }) {
         {candidates > 0 ? (
           <div className="dataset-card__measure">
             <VerdictBar counts={verdicts} />
-            <p className="muted numeric">{verdictText(verdicts)}</p>
+            <p className="muted numeric" title={verdictText(verdicts)}>
+              {verdictText(verdicts)}
+            </p>
           </div>
         ) : null}
         <div className="dataset-card__run">
