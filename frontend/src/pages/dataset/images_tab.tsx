@@ -22,6 +22,7 @@ import { SCROLLER } from "./use_grid_view";
 import { useImageActions } from "./use_image_actions";
 import { useImages } from "./use_images";
 import { useScrollPlace } from "./use_scroll_place";
+import "./images_tab.css";
 
 const REFRESH_MS = 1_500;
 

@@ -9,6 +9,7 @@ import { formatCount, formatQuantity, sentence } from "../../design/format";
 import { Segmented } from "../../design/segmented";
 import { ErrorState } from "../../design/states";
 import { imageIds } from "./use_images";
+import "./prelabel_panel.css";
 
 const OPERATING_POINTS: Record<string, string> = {
   recall: "Most candidates: misses the fewest lines, more to reject.",

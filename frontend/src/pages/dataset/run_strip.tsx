@@ -11,7 +11,6 @@ export function RunStrip({ slug, run }: { slug: string; run: Run }) {
   const over = finishedCount(run);
   const { counts, total, candidates, seconds_left } = run;
   const parts = [`${formatCount(counts.done)} done`];
-  if (counts.failed > 0) parts.push(`${formatCount(counts.failed)} failed`);
   parts.push(`${formatCount(total - over)} left`);
   if (candidates > 0) parts.push(`${formatCount(candidates)} candidates`);
   if (typeof seconds_left === "number") parts.push(`about ${formatDuration(seconds_left)}`);
@@ -28,12 +27,7 @@ export function RunStrip({ slug, run }: { slug: string; run: Run }) {
       <Button small icon="stop" onClick={() => cancel(run.id)}>
         Cancel
       </Button>
-      <Progress
-        label="Pre-labelling"
-        value={over}
-        total={total}
-        tone={counts.failed > 0 ? "danger" : "accent"}
-      />
+      <Progress label="Pre-labelling" value={over} total={total} />
     </section>
   );
 }

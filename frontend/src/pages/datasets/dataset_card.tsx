@@ -12,6 +12,7 @@ import { ReviewBar, reviewText } from "../../design/review_bar";
 import { RunState } from "../run_state";
 import { verdictText } from "../verdict_text";
 import { useDatasetActions } from "./use_dataset_actions";
+import "./dataset_card.css";
 
 /** A dataset at a glance; the whole card leads to it. */
 export function DatasetCard({ dataset }: { dataset: Dataset }) {

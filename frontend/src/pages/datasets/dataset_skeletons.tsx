@@ -1,3 +1,5 @@
+import "./dataset_card.css";
+
 /** The place of the cards while they load. */
 export function DatasetSkeletons() {
   return (
