@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
-from fastapi import APIRouter, FastAPI
+from fastapi import APIRouter, FastAPI, Request
 from fastapi.responses import RedirectResponse
 from starlette.exceptions import HTTPException
-from starlette.middleware.gzip import GZipMiddleware
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
+from starlette.routing import BaseRoute, Match
 
 from app import __version__
 from app.api.deps import Server
 from app.api.guard import Guard
+from app.api.head import HeadAsGet
 from app.api.problems import answers, install_problem_handlers
 from app.api.routers import cameras, datasets, exports, images, labelling, runs, system, uploads
 from app.db.session import open_database, upgrade
@@ -23,6 +25,7 @@ from app.jobs.housekeeping import Housekeeper
 from app.settings import Settings
 from app.storage import BlobStore
 
+METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
 STATIC = Path(__file__).resolve().parent.parent / "static"
 DESCRIPTION = """
 Turn street images into ground truth for straight edge-segments: upload, pre-label, keep or reject, export.
@@ -69,25 +72,43 @@ def create_application(settings: Settings) -> FastAPI:
     install_problem_handlers(application)
     for router in (system, datasets, uploads, images, labelling, runs, cameras, exports):
         application.include_router(router.router, prefix="/api")
-    application.include_router(_unknown_addresses())
+    application.include_router(_unknown_addresses(list(application.routes)))
     if (STATIC / "index.html").is_file():
         application.frontend("/", directory=str(STATIC))
-    application.add_middleware(GZipMiddleware, minimum_size=2000, compresslevel=5)
+    application.add_middleware(
+        GZipMiddleware,
+        minimum_size=2000,
+        compresslevel=5,
+        exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
+    )
+    application.add_middleware(HeadAsGet)
     application.add_middleware(Guard, max_body_bytes=settings.max_upload_bytes)
     return application
 
 
-def _unknown_addresses() -> APIRouter:
-    """Return the routes that keep the browser tool from answering for the API."""
+def _unknown_addresses(known: Sequence[BaseRoute]) -> APIRouter:
+    """Return the routes that keep the browser tool from answering for the API.
+
+    Args:
+        known: The API's own routes; an address of theirs that is asked with another method gets 405.
+    """
     router = APIRouter(include_in_schema=False)
 
     @router.get("/api/docs")
     def documentation() -> RedirectResponse:
         return RedirectResponse("/docs/api")
 
-    @router.api_route("/api/{path:path}", methods=["GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"])
-    def unknown(path: str) -> None:
-        del path
+    @router.api_route("/api", methods=METHODS)
+    @router.api_route("/api/{path:path}", methods=METHODS)
+    def unknown(request: Request) -> None:
+        scope = request.scope
+        allowed = [
+            method
+            for method in METHODS
+            if any(route.matches({**scope, "method": method})[0] == Match.FULL for route in known)
+        ]
+        if allowed:
+            raise HTTPException(405, headers={"Allow": ", ".join(allowed)})
         raise HTTPException(404)
 
     return router

@@ -7,8 +7,6 @@ Sec-Fetch-Site checks.
 
 from __future__ import annotations
 
-from urllib.parse import urlsplit
-
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -17,6 +15,9 @@ from app.errors import ClearLinesError, Forbidden, InvalidInput, TooLarge
 
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "[::1]"})
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
+MAX_DOCUMENT_BYTES = 16 * 2**20
+"""Largest body that is no upload of files; the longest list of ids that a route takes needs a quarter of it."""
+
 ANSWER_HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "same-origin",
@@ -61,11 +62,26 @@ def check_origin(method: str, headers: Headers) -> None:
         return
     site = headers.get("sec-fetch-site")
     origin = headers.get("origin")
-    foreign = origin is not None and urlsplit(origin).netloc.lower() != headers.get("host", "").lower()
+    foreign = origin is not None and origin.lower() not in _own_origins(headers)
     if foreign or site in {"cross-site", "same-site"}:
         raise Forbidden(
             "a page of another site may not change anything here", where=f"Origin: {(origin or site or '')[:200]}"
         )
+
+
+def _own_origins(headers: Headers) -> set[str]:
+    host = headers.get("host", "").lower()
+    return {f"http://{host}", f"https://{host}"}
+
+
+def check_address(scope: Scope) -> None:
+    """Refuse addresses with a NUL character, which no name has and no database takes.
+
+    Raises:
+        InvalidInput: Where there is one in path or query.
+    """
+    if "\0" in scope["path"] or b"%00" in scope.get("query_string", b""):
+        raise InvalidInput("the address holds a NUL character", where="address", expected="text")
 
 
 class Guard:
@@ -92,38 +108,48 @@ class Guard:
         try:
             check_host(headers)
             check_origin(scope["method"], headers)
-            self._check_length(headers)
+            check_address(scope)
+            limit = self._limit_of(headers)
+            _check_length(headers, limit)
         except ClearLinesError as error:
             await problem_of(error)(scope, receive, send_with_headers)
             return
-        await self.app(scope, self._bounded(receive), send_with_headers)
+        await self.app(scope, _bounded(receive, limit), send_with_headers)
 
-    def _too_large(self) -> TooLarge:
-        return TooLarge(
-            "the request is larger than this server takes",
-            expected=f"at most {self.max_body_bytes // 2**20} MiB",
-            hint="send fewer files at once, or raise CLEARLINES_MAX_UPLOAD_BYTES",
-        )
+    def _limit_of(self, headers: Headers) -> int:
+        """Return the largest body to take: files are streamed to the disk, all else is held in memory."""
+        is_form = headers.get("content-type", "").lower().startswith("multipart/form-data")
+        return self.max_body_bytes if is_form else min(MAX_DOCUMENT_BYTES, self.max_body_bytes)
 
-    def _check_length(self, headers: Headers) -> None:
-        length = headers.get("content-length")
-        if length is None:
-            return
-        if not length.isdecimal():
-            raise InvalidInput("Content-Length is no number", where=f"Content-Length: {length[:40]}")
-        if int(length) > self.max_body_bytes:
-            raise self._too_large()
 
-    def _bounded(self, receive: Receive) -> Receive:
-        received = 0
+def _too_large(limit: int) -> TooLarge:
+    return TooLarge(
+        "the request is larger than this server takes",
+        expected=f"at most {limit / 2**20:g} MiB",
+        hint="send fewer things at once; for files there is CLEARLINES_MAX_UPLOAD_BYTES",
+    )
 
-        async def bounded() -> Message:
-            nonlocal received
-            message = await receive()
-            if message["type"] == "http.request":
-                received += len(message.get("body", b""))
-                if received > self.max_body_bytes:
-                    raise self._too_large()
-            return message
 
-        return bounded
+def _check_length(headers: Headers, limit: int) -> None:
+    length = headers.get("content-length")
+    if length is None:
+        return
+    if not length.isdecimal():
+        raise InvalidInput("Content-Length is no number", where=f"Content-Length: {length[:40]}")
+    if int(length) > limit:
+        raise _too_large(limit)
+
+
+def _bounded(receive: Receive, limit: int) -> Receive:
+    received = 0
+
+    async def bounded() -> Message:
+        nonlocal received
+        message = await receive()
+        if message["type"] == "http.request":
+            received += len(message.get("body", b""))
+            if received > limit:
+                raise _too_large(limit)
+        return message
+
+    return bounded

@@ -108,7 +108,8 @@ async def _http_error(request: Request, error: Exception) -> JSONResponse:
     }
     message = messages.get(status, str(error.detail))
     code = status.phrase.lower().replace(" ", "-")
-    response = problem_response(status, code, message, where=request.url.path, hint="/api/docs lists the addresses")
+    hint = "/api/docs lists the addresses" if status in messages else None
+    response = problem_response(status, code, message, where=request.url.path, hint=hint)
     response.headers.update(error.headers or {})
     return response
 

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from app.vision import division
 from app.vision.bins import BinnedSegments
 from app.vision.division import Division
-from app.vision.sampson import Bend, Family, bend
+from app.vision.sampson import Bend, bend
 
 Array = NDArray[np.float64]
 
-DIVISION = Family(division.map_points, division.map_derivatives)
+DIVISION = division.map_points
 PRIOR_SD = np.array([0.2, 0.1, 0.15, 0.01, 0.01])
 """Prior standard deviations of k1, k2, k3 and the centre's offset, in half diagonals, around 0."""
 SCAN = np.linspace(-0.25, 0.5, 76)
@@ -97,7 +97,7 @@ def fit_lens(binned: BinnedSegments, width: int, height: int) -> LensFit:
         trial, trial_loss = refine(binned, mixture, parameters, rung)
         if loss - trial_loss >= RUNG_GAIN and Division.from_parameters(width, height, trial).is_invertible():
             parameters, loss, free = trial, trial_loss, rung
-    left = bend(binned, DIVISION, parameters, slopes=True)
+    left = bend(binned, DIVISION, parameters, slopes=range(5))
     return LensFit(parameters, free, mixture, responsibilities(left, mixture)[0], left, scan, loss)
 
 
@@ -155,15 +155,15 @@ def refine(
     rows = list(free)
     precision = PRIOR_SD[rows] ** -2
     parameters, damping = start.copy(), 1e-3
-    left = bend(binned, DIVISION, parameters, slopes=True)
+    left = bend(binned, DIVISION, parameters, slopes=rows)
     loss = _loss(left, mixture, parameters)
     for _ in range(iterations):
-        normal, gradient = _normal_equations(left, mixture, rows)
+        normal, gradient = _normal_equations(left, mixture)
         normal += np.diag(precision)
         gradient += precision * parameters[rows]
         trial = parameters.copy()
         trial[rows] -= np.linalg.solve(normal + damping * np.diag(np.diag(normal)), gradient)
-        trial_left = bend(binned, DIVISION, trial, slopes=True)
+        trial_left = bend(binned, DIVISION, trial, slopes=rows)
         trial_loss = _loss(trial_left, mixture, trial)
         gain = loss - trial_loss
         if gain > 0:
@@ -175,19 +175,19 @@ def refine(
     return parameters, loss
 
 
-def _normal_equations(left: Bend, mixture: Mixture, rows: list[int]) -> tuple[Array, Array]:
-    """Return the Gauss-Newton matrix and the gradient of the loss without priors, for some of the parameters."""
+def _normal_equations(left: Bend, mixture: Mixture) -> tuple[Array, Array]:
+    """Return the Gauss-Newton matrix and the gradient of the loss without priors, for the parameters with slopes."""
     probability, _ = responsibilities(left, mixture)
-    normal, gradient = np.zeros((len(rows), len(rows))), np.zeros(len(rows))
+    number = left.quadratic_slope.shape[1]
+    normal, gradient = np.zeros((number, number)), np.zeros(number)
     for amplitude, slopes, wide in (
         (left.quadratic, left.quadratic_slope, mixture.quadratic),
         (left.cubic, left.cubic_slope, mixture.cubic),
     ):
         # |a| / b is touched from above at a by a parabola with this weight
         weight = probability / mixture.sigma**2 + (1 - probability) / (wide * np.maximum(np.abs(amplitude), 0.02))
-        slope = slopes[:, rows]
-        normal += (slope * weight[:, None]).T @ slope
-        gradient += slope.T @ (weight * amplitude)
+        normal += (slopes * weight[:, None]).T @ slopes
+        gradient += slopes.T @ (weight * amplitude)
     return normal, gradient
 
 

@@ -19,11 +19,11 @@ from app.vision import brown
 from app.vision.bins import BinnedSegments
 from app.vision.brown import Brown
 from app.vision.frame import center_of, half_diagonal
-from app.vision.sampson import Bend, Family, bend
+from app.vision.sampson import Bend, bend
 
 Array = NDArray[np.float64]
 
-BROWN = Family(brown.map_points, brown.map_derivatives)
+BROWN = brown.map_points
 PRIOR_SD = np.array([0.4, 0.1, 0.05, 0.002, 0.002, 0.02, 0.02])
 """Prior standard deviations of k1, k2, k3, p1, p2 and the centre's offset (half diagonals), around 0."""
 THRESHOLD = 1.96
@@ -65,7 +65,7 @@ def msac_brown(binned: BinnedSegments, width: int, height: int, *, seed: int = 0
     scored = binned
     if len(binned) > MOST_SCORED:
         scored = binned.select(np.sort(generator.choice(len(binned), MOST_SCORED, replace=False)))
-    unbent = bend(scored, BROWN, np.zeros(7), slopes=True)
+    unbent = bend(scored, BROWN, np.zeros(7), slopes=range(7))
     best, best_cost = np.zeros(7), mean_cost(squared_errors(scored, unbent))
     for _ in range(hypotheses):
         sample = generator.choice(len(scored), min(2, len(scored)), replace=False)
@@ -90,13 +90,13 @@ def mean_cost(errors: Array) -> float:
 
 def _polish(binned: BinnedSegments, start: Array, width: int, height: int) -> Array:
     """Refine on the inliers, their threshold shrinking; keep what costs least and is invertible."""
-    parameters, left = start, bend(binned, BROWN, start, slopes=True)
+    parameters, left = start, bend(binned, BROWN, start, slopes=range(7))
     best, best_cost = start, mean_cost(squared_errors(binned, left))
     for free in ((0, 1), tuple(range(7))):
         for widening in (3.0, 2.0, 1.0, 1.0):
             inlier = np.flatnonzero(squared_errors(binned, left) < (widening * THRESHOLD) ** 2)
             parameters = _step(parameters, free, left, binned.sigma, inlier)
-            left = bend(binned, BROWN, parameters, slopes=True)
+            left = bend(binned, BROWN, parameters, slopes=range(7))
             cost = mean_cost(squared_errors(binned, left))
             if cost < best_cost and _lens(parameters, width, height).is_invertible():
                 best, best_cost = parameters, cost

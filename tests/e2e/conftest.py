@@ -51,7 +51,7 @@ def free_port() -> int:
         return probe.getsockname()[1]
 
 
-def start_server(data: Path, *arguments: str, command: str = "serve", port: int | None = None) -> RunningServer:
+def launch(data: Path, *arguments: str, command: str = "serve", port: int | None = None) -> RunningServer:
     """Start the command and wait until it answers."""
     port = port or free_port()
     log = (data.parent / f"{data.name}.log").open("ab")
@@ -81,7 +81,7 @@ def serve(tmp_path: Path) -> Iterator[Callable[..., RunningServer]]:
     running: list[RunningServer] = []
 
     def serve(*arguments: str, **options: object) -> RunningServer:
-        server = start_server(tmp_path / "data", *arguments, **options)  # type: ignore[arg-type]
+        server = launch(tmp_path / "data", *arguments, **options)  # type: ignore[arg-type]
         running.append(server)
         return server
 
@@ -89,6 +89,12 @@ def serve(tmp_path: Path) -> Iterator[Callable[..., RunningServer]]:
     for server in running:
         if server.process.poll() is None:
             server.stop()
+
+
+@pytest.fixture(scope="session")
+def start_server() -> Callable[..., RunningServer]:
+    """Return what starts a server; for fixtures that outlive a test. Whoever starts one stops it."""
+    return launch
 
 
 @pytest.fixture(scope="session")

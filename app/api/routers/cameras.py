@@ -6,6 +6,7 @@ from fastapi import APIRouter
 
 from app.api.deps import Now, Reader, ServerDep
 from app.api.problems import answers
+from app.api.schemas.base import RowId
 from app.api.schemas.images import CameraAnswer, CameraChange
 from app.services import cameras
 from app.services.datasets import get_dataset
@@ -20,7 +21,7 @@ def list_cameras(session: Reader, slug: str) -> list[CameraAnswer]:
 
 
 @router.patch("/cameras/{camera_id}", responses=answers(409))
-def change_camera(server: ServerDep, now: Now, camera_id: int, given: CameraChange) -> CameraAnswer:
+def change_camera(server: ServerDep, now: Now, camera_id: RowId, given: CameraChange) -> CameraAnswer:
     """Rename a camera, or set or clear its reference distortion."""
     person = server.settings.person
     with server.database.write() as session:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Header, Query, Response
+from fastapi import APIRouter, Query, Response
 from fastapi.responses import FileResponse
 
 from app.api.deps import Cursor, Limit, Now, Reader, ServerDep
+from app.api.freshness import IfNoneMatch, fresh_headers, is_held, not_modified
 from app.api.problems import answers
-from app.api.schemas.base import ReviewState
+from app.api.schemas.base import ReviewState, RowId
 from app.api.schemas.datasets import Deleted, Restored
 from app.api.schemas.images import (
     Facets,
@@ -22,12 +23,12 @@ from app.api.schemas.images import (
     PrelabelState,
     Updated,
 )
+from app.errors import NotFound
 from app.images import for_browser, thumbnail
 from app.services import image_changes, image_details, image_lists, images
 from app.services.datasets import get_dataset
 
 router = APIRouter(tags=["images"], responses=answers(404))
-REVALIDATED = "private, no-cache"  # ids begin at 1 in every database, so an address alone says nothing of the content
 
 
 class ThumbnailSize(IntEnum):
@@ -47,7 +48,7 @@ def list_images(
     slug: str,
     status: ReviewState | None = None,
     source: str | None = None,
-    camera: int | None = None,
+    camera: RowId | None = None,
     sequence: str | None = None,
     prelabel: PrelabelState | None = None,
     search: Annotated[str | None, Query(max_length=300, description="Part of the name.")] = None,
@@ -108,13 +109,13 @@ def restore_images(server: ServerDep, now: Now, slug: str, given: ImageIds) -> R
 
 
 @router.get("/images/{image_id}")
-def read_image(session: Reader, image_id: int) -> ImageDetail:
+def read_image(session: Reader, image_id: RowId) -> ImageDetail:
     """Return an image with its neighbours, its lens and its run."""
     return ImageDetail.model_validate(image_details.image_detail(session, images.get_image(session, image_id)))
 
 
 @router.patch("/images/{image_id}", responses=answers(409))
-def change_image(server: ServerDep, now: Now, image_id: int, given: ImageChange) -> ImageDetail:
+def change_image(server: ServerDep, now: Now, image_id: RowId, given: ImageChange) -> ImageDetail:
     """Rename an image, or change its camera, source or sequence."""
     person = server.settings.person
     with server.database.write() as session:
@@ -128,7 +129,7 @@ def change_image(server: ServerDep, now: Now, image_id: int, given: ImageChange)
 
 
 @router.delete("/images/{image_id}")
-def delete_image(server: ServerDep, now: Now, image_id: int) -> Deleted:
+def delete_image(server: ServerDep, now: Now, image_id: RowId) -> Deleted:
     """Delete an image; it can be restored during the grace period."""
     settings = server.settings
     with server.database.write() as session:
@@ -139,14 +140,18 @@ def delete_image(server: ServerDep, now: Now, image_id: int) -> Deleted:
 
 
 @router.get("/images/{image_id}/original", response_class=FileResponse)
-def read_original(server: ServerDep, session: Reader, image_id: int) -> FileResponse:
+def read_original(server: ServerDep, session: Reader, image_id: RowId, if_none_match: IfNoneMatch = None) -> Response:
     """Return the file as it was uploaded."""
     image = images.get_image(session, image_id)
+    if is_held(if_none_match, image.sha256):
+        return not_modified(image.sha256)
+    if not server.blobs.exists(image.sha256):  # else the answer would break off after it has begun
+        raise NotFound("the image's file is gone from the data folder", where=image.file_name)
     return FileResponse(
         server.blobs.path(image.sha256),
         filename=image.file_name.rpartition("/")[2],
         media_type="application/octet-stream",
-        headers={"Cache-Control": REVALIDATED, "ETag": f'"{image.sha256}"'},
+        headers=fresh_headers(image.sha256),
     )
 
 
@@ -154,34 +159,32 @@ PIXELS = {200: {"content": {"image/*": {"schema": {"type": "string", "format": "
 
 
 @router.get("/images/{image_id}/display", response_class=Response, responses={**PIXELS})
-def read_display(
-    server: ServerDep, session: Reader, image_id: int, if_none_match: Annotated[str | None, Header()] = None
-) -> Response:
+def read_display(server: ServerDep, session: Reader, image_id: RowId, if_none_match: IfNoneMatch = None) -> Response:
     """Return the image in a form that a browser shows, pixels as stored: no EXIF rotation, 16 bit brought to 8."""
     image = images.get_image(session, image_id)
-    tag = f'"{image.sha256}-display"'
-    if if_none_match == tag:
-        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": REVALIDATED})
+    tag = f"{image.sha256}-display"
+    if is_held(if_none_match, tag):
+        return not_modified(tag)
     content, media_type = for_browser(server.blobs.read(image.sha256), max_pixels=server.settings.max_image_pixels)
-    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": REVALIDATED})
+    return Response(content, media_type=media_type, headers=fresh_headers(tag))
 
 
 @router.get("/images/{image_id}/thumbnail", response_class=Response, responses={**PIXELS})
 def read_thumbnail(
     server: ServerDep,
     session: Reader,
-    image_id: int,
+    image_id: RowId,
     size: ThumbnailSize = ThumbnailSize.MEDIUM,
-    if_none_match: Annotated[str | None, Header()] = None,
+    if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Return a small picture whose longer side is ``size`` px."""
     image = images.get_image(session, image_id)
-    tag = f'"{image.sha256}-{size.value}"'
-    if if_none_match == tag:
-        return Response(status_code=304, headers={"ETag": tag, "Cache-Control": REVALIDATED})
+    tag = f"{image.sha256}-{size.value}"
+    if is_held(if_none_match, tag):
+        return not_modified(tag)
     data = server.blobs.read(image.sha256)
     content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
-    return Response(content, media_type=media_type, headers={"ETag": tag, "Cache-Control": REVALIDATED})
+    return Response(content, media_type=media_type, headers=fresh_headers(tag))
 
 
 def _changes(given: ImagesChange | ImageChange) -> image_changes.ImageChanges:

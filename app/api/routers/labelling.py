@@ -6,6 +6,7 @@ from fastapi import APIRouter, Response
 
 from app.api.deps import Now, Reader, ServerDep
 from app.api.problems import answers
+from app.api.schemas.base import RowId
 from app.api.schemas.labelling import (
     DecisionsGiven,
     DecisionsStored,
@@ -20,7 +21,7 @@ router = APIRouter(prefix="/images/{image_id}", tags=["labelling"], responses=an
 
 
 @router.get("/segments")
-def read_segments(session: Reader, image_id: int) -> SegmentsAnswer:
+def read_segments(session: Reader, image_id: RowId) -> SegmentsAnswer:
     """Return the current candidates of an image, without their points."""
     return SegmentsAnswer.model_validate(labelling.segments_of_image(session, image_id))
 
@@ -30,7 +31,7 @@ def read_segments(session: Reader, image_id: int) -> SegmentsAnswer:
     response_class=Response,
     responses={200: {"content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}},
 )
-def read_points(session: Reader, image_id: int) -> Response:
+def read_points(session: Reader, image_id: RowId) -> Response:
     """Return the points of the current candidates in one binary answer, little endian.
 
     The bytes ``CLP1``, then uint32 revision, S and N, then S uint32 segment ids, S + 1 uint32 offsets and N pairs of
@@ -41,13 +42,13 @@ def read_points(session: Reader, image_id: int) -> Response:
 
 
 @router.get("/decisions")
-def read_decisions(session: Reader, image_id: int) -> History:
+def read_decisions(session: Reader, image_id: RowId) -> History:
     """Return all decisions on an image, oldest first."""
     return History.model_validate({"decisions": labelling.history(session, image_id)})
 
 
 @router.post("/decisions", responses=answers(409))
-def decide(server: ServerDep, now: Now, image_id: int, given: DecisionsGiven) -> DecisionsStored:
+def decide(server: ServerDep, now: Now, image_id: RowId, given: DecisionsGiven) -> DecisionsStored:
     """Store verdicts; all of them or none. A decision whose ``client_id`` is known already changes nothing."""
     with server.database.write() as session:
         stored = labelling.decide(session, image_id, given.decisions, person=server.settings.person, now=now)
@@ -55,7 +56,7 @@ def decide(server: ServerDep, now: Now, image_id: int, given: DecisionsGiven) ->
 
 
 @router.put("/review", responses=answers(409))
-def set_review(server: ServerDep, now: Now, image_id: int, given: ReviewGiven) -> ReviewAnswer:
+def set_review(server: ServerDep, now: Now, image_id: RowId, given: ReviewGiven) -> ReviewAnswer:
     """Say how far the people are with an image. ``done`` is refused while candidates are undecided."""
     with server.database.write() as session:
         review = reviews.set_review(

@@ -7,7 +7,7 @@ from sqlalchemy.orm import Session
 
 from app.api.deps import Cursor, Limit, Now, Reader, Server, ServerDep
 from app.api.problems import answers
-from app.api.schemas.base import WorkState
+from app.api.schemas.base import RowId, WorkState
 from app.api.schemas.datasets import Deleted
 from app.api.schemas.runs import Retried, RunAnswer, RunGiven, RunImagePage
 from app.services import run_progress, runs
@@ -37,14 +37,14 @@ def list_runs(server: ServerDep, session: Reader, now: Now, slug: str, deleted: 
 
 
 @router.get("/runs/{run_id}")
-def read_run(server: ServerDep, session: Reader, now: Now, run_id: int) -> RunAnswer:
+def read_run(server: ServerDep, session: Reader, now: Now, run_id: RowId) -> RunAnswer:
     """Return a run and how far it is."""
     return _answer(server, session, run_id, now)
 
 
 @router.get("/runs/{run_id}/images")
 def list_run_images(
-    session: Reader, run_id: int, status: WorkState | None = None, limit: Limit = 100, cursor: Cursor = None
+    session: Reader, run_id: RowId, status: WorkState | None = None, limit: Limit = 100, cursor: Cursor = None
 ) -> RunImagePage:
     """List the work of a run image by image, with what failed and why."""
     page = run_progress.run_images(session, run_id, status=status, limit=limit, cursor=cursor)
@@ -52,7 +52,7 @@ def list_run_images(
 
 
 @router.post("/runs/{run_id}/retry")
-def retry_run(server: ServerDep, now: Now, run_id: int) -> Retried:
+def retry_run(server: ServerDep, now: Now, run_id: RowId) -> Retried:
     """Queue the images that failed once more."""
     with server.database.write() as session:
         queued = runs.retry_run(session, run_id, now, person=server.settings.person)
@@ -61,7 +61,7 @@ def retry_run(server: ServerDep, now: Now, run_id: int) -> Retried:
 
 
 @router.post("/runs/{run_id}/cancel", responses=answers(409))
-def cancel_run(server: ServerDep, now: Now, run_id: int) -> RunAnswer:
+def cancel_run(server: ServerDep, now: Now, run_id: RowId) -> RunAnswer:
     """Stop a run; what it has finished stays."""
     with server.database.write() as session:
         runs.cancel_run(session, run_id, now, person=server.settings.person)
@@ -69,7 +69,7 @@ def cancel_run(server: ServerDep, now: Now, run_id: int) -> RunAnswer:
 
 
 @router.delete("/runs/{run_id}")
-def delete_run(server: ServerDep, now: Now, run_id: int) -> Deleted:
+def delete_run(server: ServerDep, now: Now, run_id: RowId) -> Deleted:
     """Delete a run with its undecided candidates; what a person decided stays. It can be restored for a while."""
     settings = server.settings
     with server.database.write() as session:
@@ -78,7 +78,7 @@ def delete_run(server: ServerDep, now: Now, run_id: int) -> Deleted:
 
 
 @router.post("/runs/{run_id}/restore", responses=answers(409))
-def restore_run(server: ServerDep, now: Now, run_id: int) -> RunAnswer:
+def restore_run(server: ServerDep, now: Now, run_id: RowId) -> RunAnswer:
     """Bring a deleted run back."""
     with server.database.write() as session:
         runs.restore_run(session, run_id, now, person=server.settings.person)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 Verdict = Literal["keep", "reject", "ambiguous", "undecided"]
 WorkState = Literal["queued", "running", "done", "failed", "cancelled"]
 ReviewState = Literal["open", "done", "discarded"]
 Origin = Literal["pipeline", "manual", "import"]
+RowId = Annotated[int, Field(ge=1, le=2**31 - 1)]  # what an id column of every database holds
 
 
 class Given(BaseModel):

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field, StringConstraints
 
-from app.api.schemas.base import Answer, ErrorInfo, Given, ReviewState, VerdictCounts
+from app.api.schemas.base import Answer, ErrorInfo, Given, ReviewState, RowId, VerdictCounts
 from app.api.schemas.runs import RunBrief
 
 Label = Annotated[str, StringConstraints(min_length=1, max_length=300, strip_whitespace=True)]
@@ -88,7 +88,7 @@ class ImagesChange(Given):
 
     model_config = ConfigDict(json_schema_extra={"example": {"ids": [1, 2, 3], "camera": "front left"}})
 
-    ids: list[int] = Field(min_length=1, max_length=100_000)
+    ids: list[RowId] = Field(min_length=1, max_length=100_000)
     camera: Label | None = None
     source: Label | None = None
     sequence: Label | None = None
@@ -99,7 +99,7 @@ class ImageIds(Given):
 
     model_config = ConfigDict(json_schema_extra={"example": {"ids": [1, 2, 3]}})
 
-    ids: list[int] = Field(min_length=1, max_length=100_000)
+    ids: list[RowId] = Field(min_length=1, max_length=100_000)
 
 
 class Updated(Answer):

@@ -8,7 +8,7 @@ from uuid import UUID
 
 from pydantic import ConfigDict, Field
 
-from app.api.schemas.base import Answer, Given, Origin, ReviewState, Verdict, VerdictCounts
+from app.api.schemas.base import Answer, Given, Origin, ReviewState, RowId, Verdict, VerdictCounts
 
 
 class SegmentAnswer(Answer):
@@ -42,7 +42,7 @@ class DecisionGiven(Given):
 
     client_id: UUID = Field(description="Made by the client; sending the same one again changes nothing.")
     group_id: UUID
-    segment_id: int
+    segment_id: RowId
     verdict: Verdict
     kind: Literal["judge", "undo", "redo"] = "judge"
     target_group_id: UUID | None = Field(None, description="The group that an undo or redo is about.")

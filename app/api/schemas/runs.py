@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from app.api.schemas.base import Answer, ErrorInfo, Given, WorkState
+from app.api.schemas.base import Answer, ErrorInfo, Given, RowId, WorkState
 
 
 class RunGiven(Given):
@@ -21,7 +21,9 @@ class RunGiven(Given):
     operating_point: Literal["recall", "balanced", "precise"] | None = None
     camera: Literal["joint", "per-image"] = Field("joint", description="Whether images of a camera share one lens.")
     discard: bool = Field(False, description="Drop candidates that fail straightness, as the paper does.")
-    image_ids: list[int] | None = Field(None, min_length=1, description="Only these images; all of them by default.")
+    image_ids: list[RowId] | None = Field(
+        None, min_length=1, max_length=100_000, description="Only these images; all of them by default."
+    )
 
 
 class WorkCounts(Answer):
@@ -41,7 +43,9 @@ class RunChanges(Answer):
     kept_unmatched: int = Field(0, description="Kept or ambiguous segments without a match; they stay.")
     already_there: int = Field(0, description="Candidates that an imported or hand-drawn segment covers already.")
     retired: int = Field(0, description="Older candidates that the new ones replaced.")
-    discarded: int = Field(0, description="Candidates that failed straightness and were dropped, if the run was told so.")
+    discarded: int = Field(
+        0, description="Candidates that failed straightness and were dropped, if the run was told so."
+    )
     reopened: int = Field(0, description="Images that were done and have new candidates.")
 
 

@@ -1,6 +1,6 @@
 /** Wheel, drag, pinch, hover and click on an element, as what they mean for a view. */
 
-import type { Point } from "./geometry";
+import { clamp, type Point } from "./geometry";
 
 export interface GestureTarget {
   zoom(at: Point, factor: number): void;
@@ -16,12 +16,26 @@ const CLICK_SLACK = 4;
 const WHEEL_SPEED = 0.0016;
 /** Trackpads send a pinch as a wheel with Ctrl, in much smaller steps. */
 const PINCH_SPEED = 0.01;
+/** A wheel delta above this comes from a notch, with Ctrl held by hand, not from a pinch (px). */
+const NOTCH = 50;
+/** A wheel that spins freely sends huge deltas; one event zooms by a factor of e at most. */
+const LARGEST_STEP = 1;
 const LINE_HEIGHT = 16;
+const PAGE_HEIGHT = 400;
 
 interface Finger {
   start: Point;
   last: Point;
   moved: boolean;
+}
+
+function wheelUnit({ deltaMode }: WheelEvent): number {
+  if (deltaMode === WheelEvent.DOM_DELTA_LINE) return LINE_HEIGHT;
+  return deltaMode === WheelEvent.DOM_DELTA_PAGE ? PAGE_HEIGHT : 1;
+}
+
+function pinchSpeed({ deltaY }: WheelEvent): number {
+  return Math.abs(deltaY) < NOTCH ? PINCH_SPEED : WHEEL_SPEED;
 }
 
 /** Listens on the element until the returned function is called. */
@@ -37,14 +51,15 @@ export function listenToGestures(element: HTMLElement, target: GestureTarget): (
 
   function onWheel(event: WheelEvent): void {
     event.preventDefault();
-    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_HEIGHT : 1;
-    if (event.shiftKey && !event.ctrlKey) {
-      target.pan(-(event.deltaX + event.deltaY) * unit, 0);
-      return;
-    }
-    const speed = event.ctrlKey ? PINCH_SPEED : WHEEL_SPEED;
-    target.zoom(place(event), Math.exp(-event.deltaY * unit * speed));
-    if (event.deltaX !== 0 && !event.ctrlKey) target.pan(-event.deltaX * unit, 0);
+    const unit = wheelUnit(event);
+    const sideways = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
+    if (event.ctrlKey || event.metaKey) zoom(event, event.deltaY * unit * pinchSpeed(event));
+    else if (sideways) target.pan(-(event.deltaX + (event.shiftKey ? event.deltaY : 0)) * unit, 0);
+    else zoom(event, event.deltaY * unit * WHEEL_SPEED);
+  }
+
+  function zoom(event: WheelEvent, amount: number): void {
+    target.zoom(place(event), Math.exp(-clamp(amount, -LARGEST_STEP, LARGEST_STEP)));
   }
 
   function onDown(event: PointerEvent): void {

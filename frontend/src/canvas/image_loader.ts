@@ -8,11 +8,17 @@
 import { problemFrom, unreachable } from "../api/problem";
 import type { Size } from "./viewport";
 
-/** Decoded images are large (8 MP take 32 MB): this one, its neighbours and one more. */
-const CAPACITY = 4;
+/** Decoded images are large, 4 bytes per pixel: 256 MB. The one that is shown is kept whatever it measures. */
+const MOST_PIXELS = 64e6;
+
+interface Kept {
+  readonly bitmap: Promise<ImageBitmap>;
+  readonly pixels: number;
+}
 
 export class ImageLoader {
-  private readonly images = new Map<string, Promise<ImageBitmap>>();
+  /** The latest asked for is the last. */
+  private readonly images = new Map<string, Kept>();
 
   /** @param size What the image measures as stored. */
   load(url: string, size: Size): Promise<ImageBitmap> {
@@ -20,22 +26,30 @@ export class ImageLoader {
     if (known !== undefined) {
       this.images.delete(url);
       this.images.set(url, known);
-      return known;
+      return known.bitmap;
     }
-    const loading = fetchBitmap(url, size);
-    this.images.set(url, loading);
+    const bitmap = fetchBitmap(url, size);
+    this.images.set(url, { bitmap, pixels: size.width * size.height });
     // A failure isn't remembered: the next attempt asks again.
-    loading.catch(() => this.images.delete(url));
+    bitmap.catch(() => this.images.delete(url));
     this.forgetOldest();
-    return loading;
+    return bitmap;
+  }
+
+  /** Loads an image that may be wanted soon, unless it is so large that the shown one would have to go. */
+  async prefetch(url: string, size: Size): Promise<void> {
+    const pixels = size.width * size.height;
+    if (this.images.has(url) || 2 * pixels > MOST_PIXELS) return;
+    await this.load(url, size).catch(() => undefined);
   }
 
   private forgetOldest(): void {
-    while (this.images.size > CAPACITY) {
-      const oldest = this.images.keys().next().value;
-      if (oldest === undefined) return;
-      this.images.delete(oldest);
-    }
+    let pixels = 0;
+    const latestFirst = [...this.images].reverse();
+    latestFirst.forEach(([url, kept], place) => {
+      pixels += kept.pixels;
+      if (place > 0 && pixels > MOST_PIXELS) this.images.delete(url);
+    });
   }
 }
 

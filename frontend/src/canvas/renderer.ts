@@ -54,8 +54,17 @@ export class Renderer {
   private readonly imageSurface: Surface;
   private readonly candidateSurface: Surface;
   private readonly highlightSurface: Surface;
+  private readonly onPainted: (complete: boolean) => void;
+  private complete = false;
 
-  constructor(image: HTMLCanvasElement, candidates: HTMLCanvasElement, highlights: HTMLCanvasElement) {
+  /** @param onPainted Hears when an opened image and its candidates are all drawn, and when they aren't any more. */
+  constructor(
+    image: HTMLCanvasElement,
+    candidates: HTMLCanvasElement,
+    highlights: HTMLCanvasElement,
+    onPainted: (complete: boolean) => void,
+  ) {
+    this.onPainted = onPainted;
     this.imageSurface = makeSurface(image);
     this.candidateSurface = makeSurface(candidates);
     this.highlightSurface = makeSurface(highlights);
@@ -107,6 +116,16 @@ export class Renderer {
     if (this.drawCandidates(changed)) this.bitmap.copyTo(this.candidateSurface, viewport, this.ratio);
     this.drawHighlights();
     if (this.bitmap.drawing) this.schedule();
+    this.tellPainted();
+  }
+
+  private tellPainted(): void {
+    const { image, scene } = this.state;
+    // A finer drawing after a movement takes nothing away from what is seen.
+    const drawn = image !== null && scene !== EMPTY_SCENE && (this.complete || !this.bitmap.drawing);
+    if (drawn === this.complete) return;
+    this.complete = drawn;
+    this.onPainted(drawn);
   }
 
   /** Brings the bitmap up to date as far as one frame allows; true where the screen has to follow. */

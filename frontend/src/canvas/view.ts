@@ -3,6 +3,7 @@
 import { follow } from "./follow";
 import type { Point } from "./geometry";
 import { listenToGestures } from "./gestures";
+import { between, glide } from "./glide";
 import type { CandidateLook } from "./layers/candidate_layer";
 import { Renderer } from "./renderer";
 import { EMPTY_SCENE, type Hit, type Scene } from "./scene";
@@ -23,13 +24,17 @@ const MOUSE_REACH = 7;
 const TOUCH_REACH = 18;
 /** One press of a zoom key. */
 const ZOOM_STEP = 1.4;
+/** Two clicks this close to each other are at one place (screen px). */
+const SAME_PLACE = 3;
 
 export interface ViewListener {
-  /** The candidate under the pointer, and where the pointer is on the screen and in the image. */
-  hover(index: number | null, screen: Point | null, image: Point | null): void;
-  /** Candidates at the clicked place, nearest first. */
-  click(hits: readonly Hit[]): void;
+  /** The candidate under the pointer, and where on the screen the pointer is. */
+  hover(index: number | null, screen: Point | null): void;
+  /** Candidates at the clicked place, nearest first; `again` where the click before was there too. */
+  click(hits: readonly Hit[], again: boolean): void;
   viewChanged(viewport: Viewport): void;
+  /** Image and candidates are on the screen, or aren't any more because others were opened. */
+  painted(complete: boolean): void;
 }
 
 export interface ViewCanvases {
@@ -52,18 +57,25 @@ export class CanvasView {
   /** The whole image is shown, and stays so when the window changes. */
   private fitted = true;
   private hovered: number | null = null;
-  /** Where the view was before it zoomed in on a tiny candidate; it goes back there for the next one. */
-  private beforeCloseUp: Viewport | null = null;
+  /** Where the view was before it zoomed for a tiny or huge candidate; it goes back there for the next one. */
+  private beforeZoom: Viewport | null = null;
+  /** Where a gliding view is going. */
+  private goal: Viewport | null = null;
+  private stopGlide: () => void = () => undefined;
+  private lastClick: Point | null = null;
 
   constructor(host: HTMLElement, canvases: ViewCanvases, listener: ViewListener) {
     this.host = host;
     this.listener = listener;
-    this.renderer = new Renderer(canvases.image, canvases.candidates, canvases.highlights);
+    this.renderer = new Renderer(canvases.image, canvases.candidates, canvases.highlights, listener.painted);
     this.stopGestures = listenToGestures(host, {
-      zoom: (position, factor) => this.moveTo(zoomAt(this.viewport, position, factor, this.minScale())),
+      zoom: (position, factor) => {
+        this.moveTo(zoomAt(this.viewport, position, factor, this.minScale()));
+        this.hover(position);
+      },
       pan: (dx, dy) => this.moveTo(pan(this.viewport, dx, dy)),
       hover: (position) => this.hover(position),
-      click: (position, touch) => listener.click(this.hits(position, touch ? TOUCH_REACH : MOUSE_REACH)),
+      click: (position, touch) => this.click(position, touch ? TOUCH_REACH : MOUSE_REACH),
     });
     this.resizes = new ResizeObserver(() => this.resize());
     this.resizes.observe(host);
@@ -73,6 +85,7 @@ export class CanvasView {
   dispose(): void {
     this.stopGestures();
     this.resizes.disconnect();
+    this.stopGlide();
     this.renderer.stop();
   }
 
@@ -81,6 +94,7 @@ export class CanvasView {
     this.imageSize = imageSize;
     this.scene = EMPTY_SCENE;
     this.hovered = null;
+    this.lastClick = null;
     this.renderer.update(
       { image: null, imageSize, scene: EMPTY_SCENE, selected: null, hovered: null },
       "image",
@@ -128,18 +142,35 @@ export class CanvasView {
   show(index: number): void {
     const box = this.scene.boxes[index];
     if (box === undefined) return;
-    const from = this.beforeCloseUp ?? this.viewport;
+    const from = this.beforeZoom ?? this.goal ?? this.viewport;
     const wasFitted = this.fitted;
     const to = follow(from, box, this.screen);
-    this.beforeCloseUp = to.scale > from.scale ? from : null;
-    this.setViewport(to);
+    this.beforeZoom = to.scale === from.scale ? null : from;
+    this.glideTo(to);
     this.fitted = wasFitted && to === from;
   }
 
   /** A movement that the person made: the view stays there. */
   private moveTo(viewport: Viewport): void {
-    this.beforeCloseUp = null;
+    this.stopGlide();
+    this.goal = null;
+    this.beforeZoom = null;
+    this.lastClick = null;
     this.setViewport(viewport);
+  }
+
+  private glideTo(wanted: Viewport): void {
+    const goal = keepInReach(wanted, this.imageSize, this.screen);
+    this.stopGlide();
+    this.goal = null;
+    if (sameViewport(goal, this.viewport)) return;
+    const start = this.viewport;
+    this.goal = goal;
+    this.lastClick = null;
+    this.stopGlide = glide((share) => {
+      this.setViewport(between(start, goal, share, this.screen));
+      if (share >= 1) this.goal = null;
+    });
   }
 
   private minScale(): number {
@@ -151,6 +182,8 @@ export class CanvasView {
     if (sameViewport(viewport, this.viewport)) return;
     this.viewport = viewport;
     this.fitted = false;
+    // Another line may be under the resting pointer now; it counts again once it moves.
+    if (this.hovered !== null) this.hover(null);
     this.renderer.update({ viewport }, "view");
     this.listener.viewChanged(viewport);
   }
@@ -162,8 +195,14 @@ export class CanvasView {
       this.hovered = index;
       this.renderer.update({ hovered: index }, "highlights");
     }
-    const image = position === null ? null : toImage(this.viewport, position.x, position.y);
-    this.listener.hover(index, position, image);
+    this.listener.hover(index, position);
+  }
+
+  private click(position: Point, reach: number): void {
+    const last = this.lastClick;
+    const again = last !== null && Math.hypot(position.x - last.x, position.y - last.y) <= SAME_PLACE;
+    this.lastClick = position;
+    this.listener.click(this.hits(position, reach), again);
   }
 
   private hits(position: Point, reach: number): Hit[] {
@@ -176,6 +215,6 @@ export class CanvasView {
     this.screen = { width: Math.max(1, box.width), height: Math.max(1, box.height) };
     this.renderer.resize(this.screen, window.devicePixelRatio || 1);
     if (this.fitted) this.fit();
-    else this.setViewport(this.viewport);
+    else this.moveTo(this.goal ?? this.viewport);
   }
 }

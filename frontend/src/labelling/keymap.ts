@@ -40,9 +40,9 @@ export function keyName(press: KeyPress): string {
   return [...parts, key].join("+");
 }
 
-/** A Latin letter; on other scripts' layouts the one printed at that place of the keyboard. */
+/** A Latin letter; on other scripts' layouts, and under an input method, the one printed at that place. */
 function letterOf({ key, code }: KeyPress): string | null {
   if (/^[a-z]$/i.test(key)) return key.toUpperCase();
-  const isOtherScript = key.length === 1 && key.charCodeAt(0) > 127;
+  const isOtherScript = (key.length === 1 && key.charCodeAt(0) > 127) || key === "Process";
   return isOtherScript && /^Key[A-Z]$/.test(code) ? code.slice(3) : null;
 }

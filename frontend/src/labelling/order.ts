@@ -5,13 +5,13 @@ import type { SegmentFacts } from "../api/types";
 export const REVIEW_ORDERS = ["position", "score", "length"] as const;
 export type ReviewOrder = (typeof REVIEW_ORDERS)[number];
 
-export const REVIEW_ORDER_NAMES: Readonly<Record<ReviewOrder, string>> = {
-  position: "Left to right, top to bottom",
-  score: "Best score first",
-  length: "Longest first",
+export const REVIEW_ORDER_NAMES: Readonly<Record<ReviewOrder, { short: string; whole: string }>> = {
+  position: { short: "Place", whole: "Left to right, top to bottom" },
+  score: { short: "Score", whole: "Best score first" },
+  length: { short: "Length", whole: "Longest first" },
 };
 
-/** Rows that the image is read in; lines of one row are visited from left to right. */
+/** A row of reading is at most the image's height over this; its lines are visited from left to right. */
 const ROWS = 6;
 
 /** Indices of the candidates in the order of review. */
@@ -20,23 +20,60 @@ export function reviewSequence(
   order: ReviewOrder,
   imageHeight: number,
 ): number[] {
-  const key = KEYS[order];
-  const keys = candidates.map((candidate) => key(candidate, imageHeight));
+  const keys = KEYS[order](candidates, imageHeight);
   return candidates
     .map((_, index) => index)
     .sort((a, b) => compare(keys[a] as number[], keys[b] as number[]) || a - b);
 }
 
-type SortKey = (candidate: SegmentFacts, imageHeight: number) => number[];
+type SortKeys = (candidates: readonly SegmentFacts[], imageHeight: number) => number[][];
 
-const KEYS: Readonly<Record<ReviewOrder, SortKey>> = {
-  position: ({ box: [x0, y0, x1, y1] }, height) => {
-    const row = Math.floor((ROWS * (y0 + y1)) / (2 * Math.max(height, 1)));
-    return [row, x0 + x1, y0 + y1];
+const KEYS: Readonly<Record<ReviewOrder, SortKeys>> = {
+  position: (candidates, imageHeight) => {
+    const middles = candidates.map(({ box: [, y0, , y1] }) => (y0 + y1) / 2);
+    const rows = readingRows(middles, Math.max(imageHeight, 1) / ROWS);
+    return candidates.map(({ box: [x0, , x1] }, index) => [
+      rows[index] as number,
+      x0 + x1,
+      middles[index] as number,
+    ]);
   },
-  score: ({ score, straight }) => [-(score ?? 0), straight === false ? 1 : 0],
-  length: ({ length }) => [-length],
+  score: (candidates) =>
+    candidates.map(({ score, straight }) => [-(score ?? 0), straight === false ? 1 : 0]),
+  length: (candidates) => candidates.map(({ length }) => [-length]),
 };
+
+/**
+ * The row that each height belongs to.
+ *
+ * Rows are cut where the lines leave a gap, not at fixed heights: a row of windows whose middles differ by a
+ * pixel would else be torn apart.
+ *
+ * @param tallest Height of a row at most; a cut is looked for in the lower half of that.
+ */
+export function readingRows(heights: readonly number[], tallest: number): number[] {
+  const sorted = [...heights].sort((a, b) => a - b);
+  const starts: number[] = [];
+  let first = 0;
+  while (first < sorted.length) {
+    const top = sorted[first] as number;
+    starts.push(top);
+    let cut = first + 1;
+    let widest = -1;
+    for (let next = first + 1; next < sorted.length; next++) {
+      const gap = (sorted[next] as number) - (sorted[next - 1] as number);
+      const depth = (sorted[next - 1] as number) - top;
+      if (depth > tallest) break;
+      cut = widest < 0 ? next + 1 : cut;
+      if (depth + gap >= tallest / 2 && gap > widest) {
+        widest = gap;
+        cut = next;
+      }
+    }
+    first = cut;
+  }
+  return heights.map((height) => starts.findLastIndex((start) => start <= height));
+}
 
 function compare(a: readonly number[], b: readonly number[]): number {
   for (let i = 0; i < a.length; i++) {

@@ -9,9 +9,8 @@ import type { LabelStore } from "../../labelling/label_store";
 import { HoverReadout } from "./hover_readout";
 
 export interface PointerPlace {
-  index: number | null;
+  index: number;
   screen: Point;
-  image: Point;
 }
 
 interface CanvasRegionProps {
@@ -33,6 +32,7 @@ export function CanvasRegion(props: CanvasRegionProps) {
   const highlightCanvas = useRef<HTMLCanvasElement>(null);
   const storeRef = useRef(store);
   const [pointer, setPointer] = useState<PointerPlace | null>(null);
+  const [painted, setPainted] = useState(false);
   storeRef.current = store;
 
   useEffect(() => {
@@ -44,9 +44,10 @@ export function CanvasRegion(props: CanvasRegionProps) {
       host,
       { image: imageLayer, candidates, highlights },
       {
-        hover: (index, screen, at) => setPointer(screen && at ? { index, screen, image: at } : null),
-        click: (hits) => selectHit(storeRef.current, hits),
+        hover: (index, screen) => setPointer(index === null || screen === null ? null : { index, screen }),
+        click: (hits, again) => selectHit(storeRef.current, hits, again),
         viewChanged: ({ scale }) => onScale(scale),
+        painted: setPainted,
       },
     );
     viewRef.current = view;
@@ -79,6 +80,7 @@ export function CanvasRegion(props: CanvasRegionProps) {
       role="application"
       aria-label={`Image ${image.name} with candidates. Tab goes through them, Escape twice leaves.`}
       aria-describedby="label-selection"
+      aria-busy={!painted}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: the image is operated by keys, as an application region
       tabIndex={0}
     >
@@ -118,10 +120,10 @@ function changedIndices(before: LabelState, after: LabelState): number[] {
   return after.sequence.filter((index) => before.verdicts[index] !== after.verdicts[index]);
 }
 
-/** Selects the nearest candidate; clicking the selected one again goes to the next of those that lie there. */
-function selectHit(store: LabelStore | null, hits: readonly Hit[]): void {
+/** Selects the nearest candidate; a further click at the same place goes through all that lie there. */
+function selectHit(store: LabelStore | null, hits: readonly Hit[], again: boolean): void {
   if (store === null) return;
-  const place = hits.findIndex((hit) => hit.index === store.getState().selected);
-  const hit = hits[(place + 1) % Math.max(hits.length, 1)];
-  store.select(hit?.index ?? null);
+  const selected = hits.findIndex((hit) => hit.index === store.getState().selected);
+  const place = again ? (selected + 1) % Math.max(hits.length, 1) : 0;
+  store.select(hits[place]?.index ?? null);
 }

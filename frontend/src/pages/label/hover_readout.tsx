@@ -8,8 +8,8 @@ import { VerdictMark } from "./verdict_mark";
 export function HoverReadout({ store, pointer }: { store: LabelStore; pointer: PointerPlace }) {
   const state = useLabelState(store);
   const { index, screen } = pointer;
-  const candidate = index === null ? undefined : state.candidates[index];
-  if (index === null || candidate === undefined) return null;
+  const candidate = state.candidates[index];
+  if (candidate === undefined) return null;
   const verdict = verdictAt(state, index);
   return (
     <div
