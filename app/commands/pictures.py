@@ -12,6 +12,7 @@ from app.commands.whole_files import write_whole
 from app.errors import InvalidImage, InvalidInput, NotFound, TooLarge
 from app.evaluation import draw_overlay
 from app.evaluation.overlay import Scored
+from app.formats.files import read_file
 from app.formats.naming import is_image_path, name_images
 from app.images import decode_display
 from app.vision.segments import Segments
@@ -37,7 +38,8 @@ def write_picture(image: Path, path: Path, labels: Segments, predictions: Segmen
     """Draw the outcomes on an image and write the picture as PNG.
 
     Raises:
-        InvalidImage: If the image can't be decoded.
+        InvalidFile: If the image can't be read.
+        InvalidImage: If it can't be decoded.
         TooLarge: If it is over the limits.
         OSError: If the picture can't be written.
     """
@@ -48,8 +50,6 @@ def write_picture(image: Path, path: Path, labels: Segments, predictions: Segmen
 
 def _decoded(image: Path) -> NDArray[np.uint8]:
     try:
-        return decode_display(image.read_bytes())
+        return decode_display(read_file(image))
     except (InvalidImage, TooLarge) as error:
         raise type(error)(error.message, where=str(image), expected=error.expected, hint=error.hint) from error
-    except OSError as error:
-        raise InvalidImage(f"the file can't be read: {error.strerror}", where=str(image)) from error

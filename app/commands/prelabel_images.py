@@ -8,6 +8,7 @@ from pathlib import Path
 
 from app.errors import ClearLinesError, InvalidInput, NotFound
 from app.formats.dataset import DatasetImage, assign_cameras, read_dataset
+from app.formats.files import read_file
 from app.formats.naming import is_image_path, name_of
 from app.images import ImageHeader, describe
 
@@ -69,7 +70,7 @@ def _described(root: Path, images: Sequence[DatasetImage]) -> list[FoundImage]:
     errors: dict[str, ClearLinesError] = {}
     for image in images:
         try:
-            headers[image.name] = describe((root / image.path).read_bytes())
+            headers[image.name] = describe(read_file(root / image.path))
         except ClearLinesError as error:
             errors[image.name] = error
     sizes = {name: (header.width, header.height) for name, header in headers.items()}

@@ -8,10 +8,10 @@ from functools import partial
 from pathlib import Path
 
 from app.errors import ClearLinesError, InvalidFile, InvalidInput, NotFound
+from app.formats.files import read_file
 from app.formats.labelled import LabelledSegments
 from app.formats.limits import SEGMENT_LIMITS, SET_LIMITS
 from app.formats.naming import name_segment_files
-from app.formats.polylines import check_file_size
 from app.formats.segment_files import list_segment_files, read_segment_set, read_segments
 
 Read = Callable[[], LabelledSegments]
@@ -45,7 +45,7 @@ def open_segment_files(path: Path, what: str, images: Collection[str] = ()) -> S
         TooLarge: If it is over the limits.
     """
     if path.is_file():
-        images_of_set = read_segment_set(path.as_posix(), _bytes(path, SET_LIMITS.file_bytes))
+        images_of_set = read_segment_set(path.as_posix(), read_file(path, limit=SET_LIMITS.file_bytes))
         return SegmentFiles({name: partial(_same, value) for name, value in images_of_set.items()})
     if not path.is_dir():
         raise NotFound(f"the {what} folder doesn't exist", where=str(path), hint="is the path right?")
@@ -68,15 +68,7 @@ def read_segment_file(path: Path) -> LabelledSegments:
         InvalidFile: If it can't be read.
         TooLarge: If it is over the limits.
     """
-    return read_segments(path.as_posix(), _bytes(path, SEGMENT_LIMITS.file_bytes))
-
-
-def _bytes(path: Path, limit: int) -> bytes:
-    try:
-        check_file_size(path.stat().st_size, where=str(path), limit=limit)
-        return path.read_bytes()
-    except OSError as error:
-        raise InvalidFile(f"the file can't be read: {error.strerror}", where=str(path)) from error
+    return read_segments(path.as_posix(), read_file(path, limit=SEGMENT_LIMITS.file_bytes))
 
 
 def _same(value: LabelledSegments) -> LabelledSegments:

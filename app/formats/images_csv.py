@@ -13,7 +13,7 @@ from app.formats.polylines import check_file_size
 
 COLUMNS = ("name", "camera", "source", "sequence")
 FILE_LIMIT = 16 * 2**20
-WORD_LIMIT = 200
+WORD_LIMIT = 300
 
 
 @dataclass(frozen=True)
@@ -86,6 +86,6 @@ def _word(value: str | None, where: str) -> str:
     word = (value or "").strip()
     if len(word) > WORD_LIMIT or has_control_characters(word):
         raise InvalidFile(
-            "the text is too long or has control characters", where=where, expected=f"{WORD_LIMIT} characters"
+            "the text is too long or has control characters", where=where, expected=f"at most {WORD_LIMIT} characters"
         )
     return word

@@ -17,6 +17,9 @@ from app.errors import InvalidFile, InvalidInput
 FILTERED = "_edge_segments_filtered"
 AMBIGUOUS = "_edge_segments_ambiguous"
 
+PART_BYTES = 255 - len(f"{AMBIGUOUS}.npy")
+"""Longest part of an image's name: file systems end at 255, and label files are named after the image."""
+
 IMAGE_SUFFIXES = frozenset({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm", ".pnm"})
 SEGMENT_SUFFIXES = frozenset({".npy", ".npz", ".json"})
 REPORTS = frozenset({"prelabel.json", "cameras.json", "camera.json", "summary.json"})
@@ -78,19 +81,20 @@ def has_control_characters(text: str) -> bool:
     return any(unicodedata.category(character) in ("Cc", "Cs", "Zl", "Zp") for character in text)
 
 
+def is_hidden(path: str | PurePath) -> bool:
+    """Whether a path has a part that systems hide or add by themselves; such files are left out everywhere."""
+    return any(part.startswith(".") or part == "__MACOSX" for part in PurePath(path).parts)
+
+
 def is_image_path(path: str | PurePath) -> bool:
     """Whether the path ends as an image does that is read."""
-    return PurePath(path).suffix.lower() in IMAGE_SUFFIXES and not _is_hidden(path)
+    return PurePath(path).suffix.lower() in IMAGE_SUFFIXES and not is_hidden(path)
 
 
 def is_segment_path(path: str | PurePath) -> bool:
     """Whether the path ends as a file of segments does, and is no report or hidden file."""
     known = PurePath(path).suffix.lower() in SEGMENT_SUFFIXES
-    return known and PurePath(path).name not in REPORTS and not _is_hidden(path)
-
-
-def _is_hidden(path: str | PurePath) -> bool:
-    return any(part.startswith(".") or part == "__MACOSX" for part in PurePath(path).parts)
+    return known and PurePath(path).name not in REPORTS and not is_hidden(path)
 
 
 def name_images(paths: Iterable[str]) -> dict[str, str]:
@@ -187,3 +191,18 @@ def check_names(names: Iterable[str], *, where: str) -> None:
             raise InvalidFile(
                 f"{name!r:.120} is no name of an image", where=where, expected="a path such as KITTI/000000"
             )
+
+
+def check_image_name(name: str, *, where: str) -> None:
+    """Refuse names that an image can't be exported and imported again under.
+
+    Raises:
+        InvalidFile: If it is no path under a root, hidden, or too long for the files that are named after it.
+    """
+    check_names([name], where=where)
+    if is_hidden(name):
+        raise InvalidFile(f"{name!r:.120} is a hidden file", where=where, expected="no part that begins with a dot")
+    if any(len(part.encode()) > PART_BYTES for part in name.split("/")):
+        raise InvalidFile(
+            "the name of a file or folder is too long", where=where, expected=f"at most {PART_BYTES} bytes of UTF-8"
+        )

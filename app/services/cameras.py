@@ -13,6 +13,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Camera, CameraEstimate, Dataset, Image, Run
 from app.errors import Conflict, InvalidInput, NotFound
+from app.formats.naming import composed
 from app.formats.reference_camera import ReferenceCamera, read_cameras
 from app.services.events import record_event
 
@@ -50,7 +51,7 @@ def camera_for(session: Session, dataset: Dataset, name: str, width: int, height
     Raises:
         InvalidInput: When the name can't be used, or the camera's images have another size.
     """
-    name = _checked_name(name)
+    name = checked_camera_name(name)
     query = select(Camera).where(Camera.dataset_id == dataset.id, Camera.name == name)
     camera = session.scalars(query).one_or_none()
     if camera is None:
@@ -120,7 +121,7 @@ def rename_camera(session: Session, camera: Camera, name: str, now: datetime, *,
         InvalidInput: When the name can't be used.
         Conflict: When another camera of the dataset has it.
     """
-    name = _checked_name(name)
+    name = checked_camera_name(name)
     if name == camera.name:
         return camera
     query = select(Camera.id).where(Camera.dataset_id == camera.dataset_id, Camera.name == name)
@@ -215,8 +216,13 @@ def _entries(session: Session, chosen: Any) -> list[CameraEntry]:
     ]
 
 
-def _checked_name(name: str) -> str:
-    name = name.strip()
+def checked_camera_name(name: str) -> str:
+    """Return the name in Unicode's composed form.
+
+    Raises:
+        InvalidInput: When it is empty, too long, or has control characters.
+    """
+    name = composed(name.strip())
     if not name or len(name) > NAME_LENGTH or not name.isprintable():
         raise InvalidInput("this can't be a camera's name", where="camera", expected=f"1 to {NAME_LENGTH} characters")
     return name

@@ -11,10 +11,10 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Blob, Dataset, Image, Review
 from app.errors import ClearLinesError, InvalidInput, Unavailable
-from app.formats.naming import check_names, composed, name_of
+from app.formats.naming import check_image_name, composed, is_image_path, name_of
 from app.images import ImageHeader, describe
 from app.services.cameras import camera_for, default_camera_name
-from app.services.images import NAME_LENGTH, name_conflict
+from app.services.images import NAME_LENGTH, is_named, name_conflict
 from app.storage import BlobStore
 
 
@@ -69,7 +69,7 @@ def checked_file_name(file_name: str) -> str:
         InvalidInput: When it is no path under a root, or too long.
     """
     path = composed(file_name.replace("\\", "/").removeprefix("./"))
-    check_names([path], where="file name")
+    check_image_name(name_of(path) if is_image_path(path) else path, where="file name")
     if len(path) > NAME_LENGTH:
         raise InvalidInput("the path is too long", where=path[:60], expected=f"at most {NAME_LENGTH} characters")
     return path
@@ -106,7 +106,7 @@ def add_image(
     same = session.scalars(present.where(Image.sha256 == received.sha256)).one_or_none()
     if same is not None:
         return AddedImage(same, existing=True)
-    if other := session.scalars(present.where(Image.name == received.name)).one_or_none():
+    if other := session.scalars(present.where(is_named(received.name))).first():
         raise name_conflict(other.file_name, received.file_name)
     _add_blob(session, received, now)
     if not blobs.exists(received.sha256):

@@ -13,11 +13,11 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Camera, Dataset, Image
 from app.errors import InvalidInput
-from app.formats.naming import check_names, composed
+from app.formats.naming import check_image_name, composed
 from app.services.batches import in_batches
-from app.services.cameras import camera_for
+from app.services.cameras import camera_for, checked_camera_name
 from app.services.events import record_event
-from app.services.images import NAME_LENGTH, NAMES_SHOWN, images_of, name_conflict
+from app.services.images import NAME_LENGTH, NAMES_SHOWN, images_of, is_named, name_conflict
 
 WORD_LENGTH = 300
 
@@ -91,14 +91,14 @@ def rename_image(session: Session, image: Image, name: str, now: datetime, *, pe
         Conflict: When another image of the dataset has that name.
     """
     name = composed(name.strip())
-    check_names([name], where="name")
+    check_image_name(name, where="name")
     if len(name) > NAME_LENGTH - 10:
         raise InvalidInput("the name is too long", where="name", expected=f"at most {NAME_LENGTH - 10} characters")
     if name == image.name:
         return image
     present = select(Image).where(Image.dataset_id == image.dataset_id, Image.deleted_at.is_(None))
     extension = image.file_name[len(image.name) :]
-    if other := session.scalars(present.where(Image.name == name)).one_or_none():
+    if other := session.scalars(present.where(is_named(name), Image.id != image.id)).first():
         raise name_conflict(other.file_name, f"{name}{extension}")
     details = {"image_id": image.id, "from": image.name, "to": name}
     record_event(session, "image.renamed", now, dataset_id=image.dataset_id, person=person, details=details)
@@ -108,6 +108,7 @@ def rename_image(session: Session, image: Image, name: str, now: datetime, *, pe
 
 
 def _camera_of_all(session: Session, dataset: Dataset, images: Sequence[Image], name: str, now: datetime) -> Camera:
+    name = checked_camera_name(name)
     query = select(Camera).where(Camera.dataset_id == dataset.id, Camera.name == name)
     present = session.scalars(query).one_or_none()
     first = present or min(images, key=lambda image: image.name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime, timedelta
 
-from sqlalchemy import select, update
+from sqlalchemy import ColumnElement, func, select, update
 from sqlalchemy.orm import Session
 
 from app.db.models import Dataset, Image
@@ -106,6 +106,14 @@ def restore_images(
     return len(images)
 
 
+def is_named(*names: str) -> ColumnElement[bool]:
+    """Select images by name, in any case: on many systems ``a.png`` and ``A.png`` are one file.
+
+    SQLite folds the case of ASCII letters alone, PostgreSQL that of all.
+    """
+    return Image.name.in_(names) | func.lower(Image.name).in_([func.lower(name) for name in names])
+
+
 def name_conflict(first: str, second: str) -> Conflict:
     """Return the error of two files that would have one name."""
     return Conflict(
@@ -128,14 +136,14 @@ def _require_free(session: Session, dataset: Dataset, images: Sequence[Image]) -
     contents: set[str] = set()
     for batch in in_batches(images):
         alive = select(Image.name, Image.sha256).where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None))
-        wanted = Image.name.in_([image.name for image in batch]) | Image.sha256.in_([image.sha256 for image in batch])
+        wanted = is_named(*(image.name for image in batch)) | Image.sha256.in_([image.sha256 for image in batch])
         for name, sha256 in session.execute(alive.where(wanted)):
-            names.add(name)
+            names.add(name.lower())
             contents.add(sha256)
     for image in sorted(images, key=lambda image: image.name):
-        if image.name in names or image.sha256 in contents:
+        if image.name.lower() in names or image.sha256 in contents:
             taken.append(image.name)
-        names.add(image.name)
+        names.add(image.name.lower())
         contents.add(image.sha256)
     if taken:
         shown = ", ".join(taken[:NAMES_SHOWN])

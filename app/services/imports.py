@@ -16,8 +16,9 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Dataset
 from app.db.session import Database
-from app.errors import ClearLinesError, TooLarge
+from app.errors import ClearLinesError
 from app.formats.dataset import DatasetImage, read_dataset, reference_of
+from app.formats.files import read_file
 from app.formats.reference_camera import ReferenceCamera
 from app.formats.segment_files import read_segments
 from app.services.cameras import default_camera_name, stored_reference
@@ -105,7 +106,7 @@ def import_folder(
     importer = Importer(database, blobs, dataset.id, now, limits, person, progress)
 
     def read(path: str) -> bytes:
-        return read_file(folder / path, limits.file_bytes)
+        return read_file(folder / path, limit=limits.file_bytes, where=path)
 
     source = ImageSource(listed.images, read, listed.cameras)
     return FolderImport(dataset.slug, import_images(importer, source, folder.name))
@@ -128,18 +129,6 @@ def import_images(importer: Importer, source: ImageSource, origin: str) -> Impor
         if importer.progress:
             importer.progress(number, len(source.images), entry.name)
     return _report(importer, outcome, origin)
-
-
-def read_file(path: Path, limit: int) -> bytes:
-    """Return a file's bytes.
-
-    Raises:
-        TooLarge: When it has more than the limit.
-    """
-    size = path.stat().st_size
-    if size > limit:
-        raise TooLarge(f"the file has {size:,} bytes", where=path.name, expected=f"at most {limit:,}")
-    return path.read_bytes()
 
 
 def _import_image(importer: Importer, source: ImageSource, entry: DatasetImage, outcome: _Outcome) -> None:

@@ -7,14 +7,15 @@ import binascii
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from datetime import datetime
-from typing import Any, Generic, TypeVar
+from datetime import UTC, datetime
+from typing import Any, Generic, TypeGuard, TypeVar
 
-from sqlalchemy import ColumnElement, literal, tuple_
+from sqlalchemy import ColumnElement, Integer, literal, tuple_
 from sqlalchemy.orm import InstrumentedAttribute
 
 from app.db.models import UtcDateTime
 from app.errors import InvalidInput
+from app.formats.naming import has_control_characters
 
 MAX_LIMIT = 1_000
 
@@ -72,7 +73,12 @@ class Order:
         """
         value, row_id = read_cursor(self.name, cursor)
         if isinstance(self.column.type, UtcDateTime):
-            value = _read_time(str(value))
+            value = _read_time(value)
+        elif isinstance(self.column.type, Integer):
+            if not _is_integer(value):
+                raise _foreign_cursor()
+        elif not isinstance(value, str) or has_control_characters(value):
+            raise _foreign_cursor()
         here, there = (
             tuple_(self.column, self.id_column),
             tuple_(literal(value, self.column.type), literal(row_id, self.id_column.type)),
@@ -124,21 +130,25 @@ def read_cursor(order: str, cursor: str) -> tuple[Any, int]:
     try:
         padded = cursor + "=" * (-len(cursor) % 4)
         name, value, row_id = json.loads(base64.b64decode(padded.encode("ascii"), altchars=b"-_", validate=True))
-    except (binascii.Error, ValueError, TypeError) as error:
+    except (binascii.Error, ValueError, TypeError, RecursionError) as error:
         raise _foreign_cursor() from error
-    if name != order or not isinstance(value, str | int | float) or type(row_id) is not int:
+    if name != order or not isinstance(value, str | int | float) or not _is_integer(row_id):
         raise _foreign_cursor()
     return value, row_id
 
 
-def _read_time(text: str) -> datetime:
+def _is_integer(value: Any) -> TypeGuard[int]:
+    return type(value) is int and abs(value) < 2**31
+
+
+def _read_time(text: Any) -> datetime:
     try:
         value = datetime.fromisoformat(text)
-    except ValueError as error:
+        if value.tzinfo is None:
+            raise _foreign_cursor()
+        return value.astimezone(UTC)
+    except (ValueError, TypeError, OverflowError) as error:
         raise _foreign_cursor() from error
-    if value.tzinfo is None:
-        raise _foreign_cursor()
-    return value
 
 
 def _foreign_cursor() -> InvalidInput:

@@ -46,8 +46,12 @@ def set_review(
     if status not in REVIEW_STATES:
         raise InvalidInput(f"{status!r} is no review status", where="status", expected=", ".join(REVIEW_STATES))
     reason = (reason or "").strip() or None
-    if reason and len(reason) > REASON_LENGTH:
-        raise InvalidInput("the reason is too long", where="reason", expected=f"at most {REASON_LENGTH} characters")
+    if reason and (len(reason) > REASON_LENGTH or "\0" in reason):
+        raise InvalidInput(
+            "the reason is too long or holds a NUL character",
+            where="reason",
+            expected=f"at most {REASON_LENGTH} characters of text",
+        )
     get_image(session, image_id)
     image = session.get_one(Image, image_id, with_for_update=True)
     if status == "done" and not allow_undecided:

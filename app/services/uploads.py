@@ -12,7 +12,7 @@ from app.errors import ClearLinesError, Conflict, InvalidFile, InvalidInput, Too
 from app.formats.archives import open_archive
 from app.formats.dataset import list_images
 from app.formats.layout import find_layout
-from app.formats.naming import is_image_path, is_segment_path, name_of
+from app.formats.naming import is_hidden, is_image_path, is_segment_path, name_of
 from app.formats.reference_camera import read_cameras
 from app.services.image_adding import checked_file_name
 from app.services.import_reports import FailedFile, ImportReport
@@ -47,19 +47,21 @@ def import_upload(importer: Importer, files: Sequence[UploadedFile]) -> ImportRe
     loose: dict[str, UploadedFile] = {}
     for file in files:
         try:
+            if is_hidden(file.name.replace("\\", "/").removeprefix("./")):
+                continue
             path = checked_file_name(file.name)
             if path.lower().endswith(".zip"):
                 reports.append(_import_zip(importer, file))
             elif path in loose:
                 raise Conflict("the file was given twice", where=path)
-            elif not any(part.startswith(".") for part in path.split("/")):
+            else:
                 loose[path] = file
         except ClearLinesError as error:
             reports.append(_failure(file.name, error))
     if loose:
         reports += _import_loose(importer, loose)
     report = _joined(reports)
-    if report.failed and not (report.added or report.existing or report.labels):
+    if not (report.added or report.existing or report.labels):
         raise _nothing_used(report.failed)
     return report
 
@@ -148,6 +150,12 @@ def _failure(name: str, error: ClearLinesError) -> ImportReport:
 
 
 def _nothing_used(failed: Sequence[FailedFile]) -> InvalidInput:
+    if not failed:
+        raise InvalidInput(
+            "there is no image among the files",
+            expected="images, labels, or zips of them",
+            hint="hidden files don't count",
+        )
     first = failed[0]
     several = f"none of {len(failed)} files could be used; the first, {first.name}: " if len(failed) > 1 else ""
     return InvalidInput(

@@ -1,6 +1,7 @@
 /** The state of one image under review, and everything that can be done to it. */
 
-import type { NewDecision, SegmentFacts, Verdict } from "../api/types";
+import type { NewDecision, SegmentFacts, StoredDecision, Verdict } from "../api/types";
+import { type CaughtUp, caughtUp } from "./catch_up";
 import { type ChangeGroup, type History, pushed, redone, undone, type VerdictChange } from "./history";
 import { isShown, type LabelState, SHOW_ALL, type Shown, verdictAt } from "./label_state";
 import { nextInSequence, type ReviewOrder, reviewSequence } from "./order";
@@ -27,6 +28,8 @@ export class LabelStore {
   private readonly indexOf: ReadonlyMap<number, number>;
   private readonly listeners = new Set<() => void>();
   private state: LabelState;
+  /** Where the review goes on when nothing is selected: a click beside a line doesn't lose one's place. */
+  private place: number | null = null;
 
   constructor(parts: StoreParts) {
     this.parts = parts;
@@ -57,13 +60,15 @@ export class LabelStore {
 
   select(index: number | null, { follow = false } = {}): void {
     if (index !== this.state.selected) this.parts.stopwatch.restart();
+    if (index !== null) this.place = index;
     const { followRequest } = this.state;
     this.set({ selected: index, followRequest: follow ? followRequest + 1 : followRequest });
   }
 
   /** Selects the next (or previous) candidate that is shown. */
   step(direction: 1 | -1): void {
-    const next = nextInSequence(this.state.sequence, this.state.selected, direction, this.shownAt);
+    const { sequence, selected } = this.state;
+    const next = nextInSequence(sequence, selected ?? this.place, direction, this.shownAt);
     if (next !== null) this.select(next, { follow: true });
   }
 
@@ -109,6 +114,19 @@ export class LabelStore {
 
   redo(): ChangeGroup | null {
     return this.replay("redo");
+  }
+
+  /**
+   * Takes over what was decided elsewhere since, in another tab or by another person.
+   *
+   * @param decisions All of the image as the server has them, oldest first.
+   * @param unsent Those of here that aren't among them.
+   */
+  catchUp(decisions: readonly StoredDecision[], unsent: readonly NewDecision[]): CaughtUp {
+    const caught = caughtUp(this.state, this.indexOf, decisions, unsent);
+    const { changed, verdicts, history } = caught;
+    if (changed.length > 0) this.set({ verdicts, history, counts: countVerdicts(verdicts) });
+    return caught;
   }
 
   setShown(shown: Shown): void {

@@ -54,25 +54,27 @@ const KEYS: Readonly<Record<ReviewOrder, SortKeys>> = {
 export function readingRows(heights: readonly number[], tallest: number): number[] {
   const sorted = [...heights].sort((a, b) => a - b);
   const starts: number[] = [];
-  let first = 0;
-  while (first < sorted.length) {
-    const top = sorted[first] as number;
-    starts.push(top);
-    let cut = first + 1;
-    let widest = -1;
-    for (let next = first + 1; next < sorted.length; next++) {
-      const gap = (sorted[next] as number) - (sorted[next - 1] as number);
-      const depth = (sorted[next - 1] as number) - top;
-      if (depth > tallest) break;
-      cut = widest < 0 ? next + 1 : cut;
-      if (depth + gap >= tallest / 2 && gap > widest) {
-        widest = gap;
-        cut = next;
-      }
-    }
-    first = cut;
+  for (let first = 0; first < sorted.length; first = endOfRow(sorted, first, tallest)) {
+    starts.push(sorted[first] as number);
   }
   return heights.map((height) => starts.findLastIndex((start) => start <= height));
+}
+
+function endOfRow(sorted: readonly number[], first: number, tallest: number): number {
+  const top = sorted[first] as number;
+  let end = sorted.length;
+  let widest = 0;
+  for (let next = first + 1; next < sorted.length; next++) {
+    const height = sorted[next] as number;
+    const gap = height - (sorted[next - 1] as number);
+    if (height - top >= tallest / 2 && gap > widest) {
+      widest = gap;
+      end = next;
+    }
+    // Without a line beyond it, what is left is the last row.
+    if (height - top > tallest) return end;
+  }
+  return sorted.length;
 }
 
 function compare(a: readonly number[], b: readonly number[]): number {

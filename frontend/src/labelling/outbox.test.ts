@@ -39,6 +39,7 @@ function outboxTo(
     wait: async () => {
       waits++;
     },
+    patience: () => new Promise(() => undefined),
     send: async (imageId, decisions) => {
       const ids = decisions.map((entry) => entry.client_id);
       server(imageId, ids);

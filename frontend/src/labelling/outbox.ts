@@ -13,11 +13,19 @@ import type { OutboxEntry, OutboxStorage } from "./outbox_storage";
 const BATCH = 500;
 const FIRST_WAIT = 400;
 const LONGEST_WAIT = 10_000;
+/** A browser's storage that doesn't answer for so long (ms) must not keep a decision from the server. */
+const STORAGE_PATIENCE = 1_500;
 
 export type SaveState =
   | { readonly kind: "saved" }
   | { readonly kind: "saving"; readonly waiting: number }
-  | { readonly kind: "offline"; readonly waiting: number; readonly problem: Problem }
+  | {
+      readonly kind: "offline";
+      readonly waiting: number;
+      readonly problem: Problem;
+      /** Whether what waits survives a reload. */
+      readonly kept: boolean;
+    }
   | { readonly kind: "refused"; readonly refused: readonly RefusedDecision[] };
 
 export interface RefusedDecision extends OutboxEntry {
@@ -29,6 +37,8 @@ interface OutboxParts {
   send: (imageId: number, decisions: NewDecision[]) => Promise<DecisionsStored>;
   /** Resolves after some milliseconds, earlier when the network comes back. */
   wait: (milliseconds: number) => Promise<void>;
+  /** Resolves after some milliseconds, whatever the network does. */
+  patience: (milliseconds: number) => Promise<void>;
   onStored?: (imageId: number, answer: DecisionsStored) => void;
 }
 
@@ -41,6 +51,9 @@ export class Outbox {
   private stored: Promise<unknown> = Promise.resolve();
   private restored: Promise<void> = Promise.resolve();
   private state: SaveState = { kind: "saved" };
+  /** Whether the browser keeps what waits here. */
+  private kept = true;
+  private endPause: () => void = () => undefined;
   private readonly listeners = new Set<() => void>();
 
   constructor(parts: OutboxParts) {
@@ -56,17 +69,25 @@ export class Outbox {
 
   /** Takes up what an earlier visit left unsent; nothing new is sent before it. */
   restore(): Promise<void> {
-    this.restored = this.takeUp();
+    this.restored = Promise.race([this.takeUp(), this.parts.patience(STORAGE_PATIENCE)]);
     return this.restored;
   }
 
   add(imageId: number, decisions: readonly NewDecision[]): void {
     const entries = decisions.map((decision) => ({ imageId, decision }));
     this.queue = [...this.queue, ...entries];
-    // A full or forbidden storage must not keep a decision from the server.
-    const storing = this.parts.storage.add(entries).catch(() => undefined);
-    this.stored = Promise.all([this.stored, storing]);
+    this.stored = Promise.all([this.stored, this.store(entries)]);
     this.pump();
+  }
+
+  /** True where a reload would lose something. */
+  get atRisk(): boolean {
+    return this.queue.length > 0 && !this.kept;
+  }
+
+  /** Tries at once instead of after the pause that a failure brings. */
+  retry(): void {
+    this.endPause();
   }
 
   /** Resolves once what an earlier visit left is known here. */
@@ -103,8 +124,25 @@ export class Outbox {
     this.update();
   }
 
+  /** A full, forbidden or silent storage must not keep a decision from the server. */
+  private async store(entries: readonly OutboxEntry[]): Promise<void> {
+    const { storage, patience } = this.parts;
+    const storing = storage.add(entries).then(
+      () => storage.lasting,
+      () => false,
+    );
+    const kept = await Promise.race([storing, patience(STORAGE_PATIENCE).then(() => false)]);
+    if (!kept) this.kept = false;
+    this.update();
+  }
+
   private async takeUp(): Promise<void> {
-    const left = await this.parts.storage.all().catch(() => []);
+    const { storage, wait } = this.parts;
+    const left = await storage.all().catch((error: unknown) => {
+      // Which database's decisions are meant is asked of the server: it may only be away for a moment.
+      if (error instanceof RequestFailed && error.temporary) wait(LONGEST_WAIT).then(() => this.takeUp());
+      return [];
+    });
     const known = new Set(this.queue.map((entry) => entry.decision.client_id));
     this.queue = [...left.filter((entry) => !known.has(entry.decision.client_id)), ...this.queue];
     this.pump();
@@ -132,7 +170,12 @@ export class Outbox {
       } catch (error) {
         this.problem = asProblem(error);
         this.update();
-        await this.parts.wait(pause);
+        await Promise.race([
+          this.parts.wait(pause),
+          new Promise<void>((resolve) => {
+            this.endPause = resolve;
+          }),
+        ]);
         pause = Math.min(2 * pause, LONGEST_WAIT);
       }
       this.update();
@@ -173,6 +216,7 @@ export class Outbox {
     const ids = batch.map((entry) => entry.decision.client_id);
     const gone = new Set(ids);
     this.queue = this.queue.filter((entry) => !gone.has(entry.decision.client_id));
+    if (this.queue.length === 0) this.kept = true;
     // If this fails, the entries are sent once more at the next visit, and recognised there.
     this.parts.storage.remove(ids).catch(() => undefined);
   }
@@ -184,7 +228,9 @@ export class Outbox {
 
   private currentState(): SaveState {
     const waiting = this.queue.length;
-    if (waiting > 0 && this.problem !== null) return { kind: "offline", waiting, problem: this.problem };
+    if (waiting > 0 && this.problem !== null) {
+      return { kind: "offline", waiting, problem: this.problem, kept: this.kept };
+    }
     if (waiting > 0) return { kind: "saving", waiting };
     if (this.refused.length > 0) return { kind: "refused", refused: this.refused };
     return { kind: "saved" };

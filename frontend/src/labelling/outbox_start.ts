@@ -12,6 +12,7 @@ export const outbox = new Outbox({
   storage: typeof indexedDB === "undefined" ? memoryStorage() : openOutboxStorage(indexedDB, servedInstance),
   send: (imageId, decisions) => postDecisions(imageId, decisions),
   wait: waitForNetwork,
+  patience: (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   onStored: (imageId, answer) => {
     for (const listener of storedListeners) listener(imageId, answer);
   },
@@ -22,6 +23,10 @@ export function onDecisionsStored(listener: StoredListener): () => void {
   storedListeners.add(listener);
   return () => storedListeners.delete(listener);
 }
+
+window.addEventListener("beforeunload", (event) => {
+  if (outbox.atRisk) event.preventDefault();
+});
 
 async function servedInstance(): Promise<string> {
   return (await getConfiguration()).instance;

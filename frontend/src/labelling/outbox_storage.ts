@@ -8,6 +8,8 @@ export interface OutboxEntry {
 }
 
 export interface OutboxStorage {
+  /** Whether entries survive a reload. */
+  readonly lasting: boolean;
   /** All entries in the order in which they were added. */
   all(): Promise<OutboxEntry[]>;
   add(entries: readonly OutboxEntry[]): Promise<void>;
@@ -48,6 +50,7 @@ export function openOutboxStorage(factory: IDBFactory, instance: () => Promise<s
   }
 
   return {
+    lasting: true,
     async all() {
       let request: IDBRequest<OutboxEntry[]> | null = null;
       await transact("readonly", (store) => {
@@ -89,6 +92,7 @@ function open(factory: IDBFactory, name: string): Promise<IDBDatabase> {
 export function memoryStorage(): OutboxStorage {
   let entries: OutboxEntry[] = [];
   return {
+    lasting: false,
     all: async () => entries,
     add: async (added) => {
       entries = [...entries, ...added];

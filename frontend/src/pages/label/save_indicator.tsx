@@ -1,16 +1,41 @@
+import { formatQuantity } from "../../design/format";
 import { Icon, type IconName } from "../../design/icons";
 import type { SaveState } from "../../labelling/outbox";
+import { outbox } from "../../labelling/outbox_start";
 import { useSaveState } from "./use_store";
 
 /** Says at any time whether everything decided has reached the server. */
 export function SaveIndicator() {
   const state = useSaveState();
   const { icon, text, title } = describe(state);
-  return (
-    <span className={`save-indicator save-indicator--${state.kind}`} role="status" title={title}>
+  const content = (
+    <>
       <Icon name={icon} />
       <span>{text}</span>
-    </span>
+    </>
+  );
+  const trouble = state.kind === "offline" || state.kind === "refused";
+  return (
+    <>
+      {state.kind === "offline" ? (
+        <button
+          type="button"
+          className="save-indicator save-indicator--offline"
+          title={title}
+          onClick={() => outbox.retry()}
+        >
+          {content}
+        </button>
+      ) : (
+        <span className={`save-indicator save-indicator--${state.kind}`} title={title}>
+          {content}
+        </span>
+      )}
+      {/* Each verdict is saved: only what goes wrong, and its end, is worth saying aloud. */}
+      <span className="visually-hidden" role="status">
+        {trouble ? text : state.kind === "saved" ? "All saved" : ""}
+      </span>
+    </>
   );
 }
 
@@ -23,8 +48,12 @@ function describe(state: SaveState): { icon: IconName; text: string; title: stri
     case "offline":
       return {
         icon: "offline",
-        text: `Offline, ${state.waiting} kept here`,
-        title: `${state.problem.message} The decisions are kept in this browser and sent again by themselves.`,
+        text: state.kept ? `Offline, ${state.waiting} kept here` : `Offline, ${state.waiting} only in this tab`,
+        title: `${state.problem.message} ${
+          state.kept
+            ? "The decisions are kept in this browser and sent again by themselves."
+            : `This browser stores nothing for this page, so keep the tab open: ${formatQuantity(state.waiting, "decision")} would be lost with it.`
+        } Click to try now.`,
       };
     case "refused":
       return {
