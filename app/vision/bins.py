@@ -47,6 +47,7 @@ class BinnedSegments:
         roughness: float64 ``(S,)`` px, RMS of what a cubic leaves in the measured image.
         vertical: bool ``(S,)``, chord nearer to the vertical than to the horizontal.
         length: float64 ``(S,)`` px, chord.
+        middle: float64 ``(S, 2)``, middle of the chord as a share of the frame's width and height.
         scale: Half diagonal in px.
     """
 
@@ -61,6 +62,7 @@ class BinnedSegments:
     roughness: Array
     vertical: NDArray[np.bool_]
     length: Array
+    middle: Array
     scale: float
 
     def __len__(self) -> int:
@@ -131,6 +133,7 @@ def bin_segments(segments_per_image: Sequence[Segments], width: int, height: int
         roughness=roughness,
         vertical=vertical,
         length=scale * length,
+        middle=0.5 + scale * (first + chord / 2) / (width, height),
         scale=scale,
     )
     usable = (counts >= FEWEST_POINTS) & (number >= FEWEST_FILLED) & (length > 0) & (roughness < MOST_ROUGHNESS)

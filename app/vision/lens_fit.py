@@ -2,8 +2,9 @@
 
 Every segment is a draw from a mixture: straight, so that its quadratic and cubic amplitude under the right lens are
 noise of known size, or not, so that they follow a Laplace law of the size that kerbs, roofs and bonnets bend by. A scan
-of k1 over all plausible lenses finds the basin (in place of sampling), Levenberg-Marquardt steps with responsibilities
-refine it, and further parameters are released one rung of a ladder at a time, each only if the data ask for it.
+over all plausible lenses (in place of sampling) gives k1 with what is known of it, see `app.vision.lens_evidence`.
+Where that is enough, further parameters are released one rung of a ladder at a time by Levenberg-Marquardt steps with
+responsibilities, each rung only if the data ask for it.
 """
 
 from __future__ import annotations
@@ -17,22 +18,20 @@ from numpy.typing import NDArray
 from app.vision import division
 from app.vision.bins import BinnedSegments
 from app.vision.division import Division
+from app.vision.lens_evidence import BARREL_SD, PINCUSHION_SD, SCAN, K1Posterior, k1_posterior, structures
 from app.vision.sampson import Bend, bend
 
 Array = NDArray[np.float64]
 
 DIVISION = division.map_points
-PRIOR_SD = np.array([0.2, 0.1, 0.15, 0.01, 0.01])
+PRIOR_SD = np.array([BARREL_SD, 0.1, 0.15, 0.01, 0.01])
 """Prior standard deviations of k1, k2, k3 and the centre's offset, in half diagonals, around 0."""
-SCAN = np.linspace(-0.25, 0.5, 76)
 RUNGS = ((0,), (0, 3, 4), (0, 1, 3, 4), (0, 1, 2, 3, 4))
 """Parameters that are free on each rung of the ladder."""
 RUNG_GAIN = 6.0
 """Drop of the penalised negative log likelihood that releases a rung's parameters."""
 SURE_OF_K1 = 0.05
-"""Spread of k1 over the scan above which nothing further is released: what isn't sure of k1 can't tell more."""
-SCAN_TEMPERATURE = 4.0
-"""By how much the scan's evidence is divided: segments of one scene aren't independent."""
+"""Standard deviation of k1 above which nothing further is released: what isn't sure of k1 can't tell more."""
 FIRST = np.eye(5)[0]
 
 # The law of segments' amplitudes, by maximum likelihood on segments of indoor and street scenes under known lenses.
@@ -68,8 +67,8 @@ class LensFit:
         mixture: The law that the segments were taken to follow.
         responsibility: float64 ``(S,)`` in [0, 1], probability of each segment of being straight under the lens.
         bend: Amplitudes left under the lens, with derivatives by all parameters.
-        scan: float64 ``(76,)``, penalised negative log likelihood over `SCAN`, centre fixed.
-        loss: Penalised negative log likelihood at the parameters.
+        posterior: What is known of k1 alone; its mean is the answer where nothing further was released.
+        structure: int64 ``(S,)``, which structure each segment was counted to.
     """
 
     parameters: Array
@@ -77,8 +76,8 @@ class LensFit:
     mixture: Mixture
     responsibility: Array
     bend: Bend
-    scan: Array
-    loss: float
+    posterior: K1Posterior
+    structure: NDArray[np.int64]
 
 
 def fit_lens(binned: BinnedSegments, width: int, height: int) -> LensFit:
@@ -89,23 +88,18 @@ def fit_lens(binned: BinnedSegments, width: int, height: int) -> LensFit:
         width: Image width in px.
         height: Image height in px.
     """
-    mixture = mixture_of(binned)
-    scan = np.array([_loss(bend(binned, DIVISION, k1 * FIRST), mixture, k1 * FIRST) for k1 in SCAN])
-    parameters, loss = refine(binned, mixture, SCAN[int(np.argmin(scan))] * FIRST, RUNGS[0])
-    free = RUNGS[0]
-    for rung in RUNGS[1:] if scan_spread(scan) < SURE_OF_K1 else ():
-        trial, trial_loss = refine(binned, mixture, parameters, rung)
-        if loss - trial_loss >= RUNG_GAIN and Division.from_parameters(width, height, trial).is_invertible():
-            parameters, loss, free = trial, trial_loss, rung
+    mixture, structure = mixture_of(binned), structures(binned)
+    scan = np.array([responsibilities(bend(binned, DIVISION, k1 * FIRST), mixture)[1] for k1 in SCAN])
+    posterior = k1_posterior(scan, structure)
+    parameters, free = posterior.mean * FIRST, RUNGS[0]
+    if posterior.sd < SURE_OF_K1:
+        released, loss = refine(binned, mixture, parameters, RUNGS[0])
+        for rung in RUNGS[1:]:
+            trial, trial_loss = refine(binned, mixture, released, rung)
+            if loss - trial_loss >= RUNG_GAIN and Division.from_parameters(width, height, trial).is_invertible():
+                parameters, released, loss, free = trial, trial, trial_loss, rung
     left = bend(binned, DIVISION, parameters, slopes=range(5))
-    return LensFit(parameters, free, mixture, responsibilities(left, mixture)[0], left, scan, loss)
-
-
-def scan_spread(scan: Array) -> float:
-    """Return the standard deviation of k1's posterior over the scan, which a second basin widens."""
-    posterior = np.exp(-(scan - scan.min()) / SCAN_TEMPERATURE)
-    posterior /= posterior.sum()
-    return float(np.sqrt(posterior @ (SCAN - posterior @ SCAN) ** 2))
+    return LensFit(parameters, free, mixture, responsibilities(left, mixture)[0], left, posterior, structure)
 
 
 def mixture_of(binned: BinnedSegments) -> Mixture:
@@ -128,6 +122,11 @@ def responsibilities(left: Bend, mixture: Mixture) -> tuple[Array, Array]:
     straight = straight - np.logaddexp(0, -share)
     both = np.logaddexp(straight, other - np.logaddexp(0, share))
     return np.exp(straight - both), -both
+
+
+def prior_sd(parameters: Array) -> Array:
+    """Return the priors' standard deviations that hold at parameters ``(5,)``: k1's depends on its sign."""
+    return np.where(FIRST * parameters < 0, PINCUSHION_SD, PRIOR_SD)
 
 
 def refine(
@@ -153,12 +152,12 @@ def refine(
         Parameters ``(5,)`` and their penalised loss, which is never above that of the start.
     """
     rows = list(free)
-    precision = PRIOR_SD[rows] ** -2
     parameters, damping = start.copy(), 1e-3
     left = bend(binned, DIVISION, parameters, slopes=rows)
     loss = _loss(left, mixture, parameters)
     for _ in range(iterations):
         normal, gradient = _normal_equations(left, mixture)
+        precision = prior_sd(parameters)[rows] ** -2
         normal += np.diag(precision)
         gradient += precision * parameters[rows]
         trial = parameters.copy()
@@ -193,4 +192,4 @@ def _normal_equations(left: Bend, mixture: Mixture) -> tuple[Array, Array]:
 
 def _loss(left: Bend, mixture: Mixture, parameters: Array) -> float:
     """Return the negative log likelihood of the mixture plus that of the priors."""
-    return float(responsibilities(left, mixture)[1].sum() + 0.5 * ((parameters / PRIOR_SD) ** 2).sum())
+    return float(responsibilities(left, mixture)[1].sum() + 0.5 * ((parameters / prior_sd(parameters)) ** 2).sum())

@@ -1,10 +1,10 @@
 """How far off a fitted lens may be, in px over the frame, and whether that is good enough to be used.
 
 A covariance of parameters helps nobody; what counts is how far points of the corrected image may lie from where they
-should, after the homography that lines can't determine. Two numbers say so. `pred` follows from the curvature of the
-likelihood at the answer; `scan_spread` from the whole scan of k1, so that a second, far answer that fits nearly as
-well shows. Segments of one scene share causes of error (a kerb seen as five pieces), so the data count for less than
-independent ones would.
+should, after the homography that lines can't determine. Two numbers say so. `scan_spread` is the spread of all
+plausible lenses of one parameter, so that a second, far answer that fits nearly as well shows; `pred` adds the
+curvature of the likelihood at the answer in all parameters. Both count evidence by structures, of which each may bend
+by its own (`app.vision.lens_evidence`): one kerb or bonnet found as five pieces stays one witness.
 """
 
 from __future__ import annotations
@@ -20,18 +20,16 @@ from app.vision.brown import Brown
 from app.vision.division import Division
 from app.vision.field import field_error, observable_part
 from app.vision.frame import center_of, frame_grid, half_diagonal
-from app.vision.lens_fit import PRIOR_SD, LensFit, scan_spread
+from app.vision.lens_evidence import TEMPERATURE, structure_sd, sum_structures
+from app.vision.lens_fit import RUNGS, LensFit, prior_sd
 
 Array = NDArray[np.float64]
 
-TEMPERATURE = 2.0
-"""By how much the evidence of segments is divided: those of one scene aren't independent. The curvature within a basin
-is trusted more than the scan, which has to tell a wrong basin from the right one."""
 MODEL_ERROR = 0.0015
 """Share of the half diagonal that a real lens is away from the model family."""
-MOST_PREDICTED = 0.3
-MOST_SPREAD = 0.65
-"""Largest `pred` and `scan_spread` to accept, as shares of the size of the correction."""
+MOST_PREDICTED = 0.42
+"""Largest `pred` to accept, as a share of the size of the correction: what isn't 2.4 times its own predicted error
+could well be worse than no correction."""
 
 
 class LensUncertainty(NamedTuple):
@@ -39,7 +37,7 @@ class LensUncertainty(NamedTuple):
 
     Attributes:
         pred: Predicted field error.
-        scan_spread: Standard deviation of the posterior of k1 over all plausible lenses, as a field.
+        scan_spread: Standard deviation of k1 over all plausible lenses, as a field.
         correction: Size of the correction itself: the field error that doing nothing would have, were the lens right.
     """
 
@@ -56,18 +54,31 @@ def lens_uncertainty(fit: LensFit, width: int, height: int) -> LensUncertainty:
         width: Image width in px.
         height: Image height in px.
     """
-    slope2, slope3 = fit.bend.quadratic_slope, fit.bend.cubic_slope
-    weight = (fit.responsibility / fit.mixture.sigma**2)[:, None]
-    information = (weight * slope2).T @ slope2 + (weight * slope3).T @ slope3
-    covariance = np.linalg.inv(information / TEMPERATURE + np.diag(PRIOR_SD**-2))
     sensitivity = field_sensitivity(fit.parameters, width, height)
-    chance = float(np.sqrt(max(np.trace(covariance @ sensitivity), 0.0)))
-    pred = math.hypot(chance, MODEL_ERROR * half_diagonal(width, height))
-
-    spread = scan_spread(fit.scan) * float(np.sqrt(sensitivity[0, 0]))
+    chance = float(np.sqrt(max(np.trace(covariance(fit) @ sensitivity), 0.0)))
+    spread = fit.posterior.sd * float(np.sqrt(sensitivity[0, 0]))
+    # where more than k1 was released, lenses of k1 alone have been outvoted and their spread says nothing
+    known = max(chance, spread) if fit.free == RUNGS[0] else chance
+    pred = math.hypot(known, MODEL_ERROR * half_diagonal(width, height))
     lens = Division.from_parameters(width, height, fit.parameters)
     correction = field_error(Brown.identity(width, height), lens, width, height).rms
     return LensUncertainty(pred, spread, correction)
+
+
+def covariance(fit: LensFit) -> Array:
+    """Return the covariance of the five parameters, released or not, float64 ``(5, 5)``.
+
+    A structure's own k1, of variance v, is eliminated: it leaves I - I e e' I / (1 / v + e' I e) of the information I
+    (Woodbury), e being the direction of k1.
+    """
+    weight = fit.responsibility / fit.mixture.sigma**2 / TEMPERATURE
+    slopes = np.stack([fit.bend.quadratic_slope, fit.bend.cubic_slope])
+    each = np.einsum("s,dsi,dsj->sij", weight, slopes, slopes)
+    found, own = sum_structures(each, fit.structure)
+    along = own[:, :, 0]
+    shared = along[:, :, None] * along[:, None] / (structure_sd(found) ** -2 + along[:, 0])[:, None, None]
+    information = np.diag(prior_sd(fit.parameters) ** -2) + (own - shared).sum(0)
+    return np.linalg.inv(information)
 
 
 def field_sensitivity(parameters: Array, width: int, height: int) -> Array:
@@ -90,7 +101,7 @@ def field_sensitivity(parameters: Array, width: int, height: int) -> Array:
     return scale**2 * (left.T @ left) / len(x)
 
 
-def reasons_to_refuse(uncertainty: LensUncertainty, trusted: float) -> list[str]:
+def reasons_to_refuse(uncertainty: LensUncertainty, trusted: int) -> list[str]:
     """Return why a lens shouldn't be used, in words; an empty list if it may be.
 
     Args:
@@ -98,15 +109,11 @@ def reasons_to_refuse(uncertainty: LensUncertainty, trusted: float) -> list[str]
         trusted: Number of segments that the fit took to be straight.
     """
     pred, spread, correction = uncertainty
-    reasons = []
-    if pred >= MOST_PREDICTED * correction:
-        reasons.append(
-            f"not enough information: the predicted error of {pred:.1f} px isn't small against the correction of"
-            f" {correction:.1f} px ({trusted:.0f} trusted segments)"
-        )
-    if spread >= MOST_SPREAD * correction:
-        reasons.append(
-            f"not enough information: other lenses fit nearly as well, {spread:.1f} px apart, against a correction of"
-            f" {correction:.1f} px"
-        )
-    return reasons
+    if pred < MOST_PREDICTED * correction:
+        return []
+    if spread >= MOST_PREDICTED * correction:
+        why = f"other lenses fit nearly as well, {spread:.1f} px apart, where different parts of the scene disagree or"
+        why += " too few of them tell"
+    else:
+        why = f"the predicted error is {pred:.1f} px"
+    return [f"not enough information: {why}; the correction would be {correction:.1f} px ({trusted} trusted segments)"]

@@ -3,7 +3,7 @@
 A segment passes (0.5 and more) if the distances of its points from its straight line, in the measured image and under
 the estimated lens, are at most max(3 sigma, 0.5 px) RMS and 1.5 px at most; sigma is the noise of the image's edge
 points. The lens is itself uncertain, and a segment is not to blame for that: of its residuals, the part is forgiven
-that a change of k1 within twice its standard deviation would take away. Where the estimate was refused the lens may be
+that a change of k1 within its standard deviation would take away. Where the estimate was refused the lens may be
 any plausible one, and each segment is forgiven what the most favourable one would explain.
 """
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.vision.distortion import DistortionEstimate
 from app.vision.division import Division
-from app.vision.lens_fit import SCAN
+from app.vision.lens_evidence import SCAN
 from app.vision.lens_uncertainty import field_sensitivity
 from app.vision.sampson import sampson_residuals
 from app.vision.segments import Segments
@@ -94,5 +94,5 @@ def _plausible_change(parameters: Array, estimate: DistortionEstimate) -> tuple[
     if not estimate.accepted:
         return float(SCAN[0]), float(SCAN[-1])
     per_unit = np.sqrt(field_sensitivity(parameters, estimate.width, estimate.height)[0, 0])
-    change = 2 * estimate.uncertainty.pred / max(float(per_unit), 1e-9)
+    change = estimate.uncertainty.pred / max(float(per_unit), 1e-9)
     return -change, change

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import combinations
 from pathlib import Path
 
 import cv2
@@ -12,7 +13,9 @@ import pytest
 from app.vision import Brown, Detection, DetectionParameters, detect_for_prelabel, estimate_distortion
 from app.vision.conversion import OpenCVLens
 from app.vision.distortion import DistortionEstimate
+from app.vision.division import Division
 from app.vision.field import field_error
+from app.vision.lens_uncertainty import MOST_PREDICTED
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data"
 
@@ -63,8 +66,25 @@ def test_york_photos_one_by_one():
 
 def test_bends_of_the_road_are_not_taken_for_a_lens():
     found = detections(DATA / "carnd" / "road")
-    for name, each in found.items():
-        alone = estimate_distortion([each.lens_segments], (each.width, each.height))
-        assert not alone.accepted, name
-        assert "not enough information" in alone.reasons[0]
-    assert not joint(found).accepted
+    groups = [{name} for name in found] + [set(pair) for pair in list(combinations(found, 2))[::2]] + [set(found)]
+    groups += [set(three) for three in list(combinations(found, 3))[::9]]
+    for names in groups:
+        estimate = joint({name: found[name] for name in sorted(names)})
+        assert not estimate.accepted, names
+        assert "not enough information" in estimate.reasons[0]
+        # far from the limit, or a small change of the detection would tip it
+        assert estimate.uncertainty.pred > 1.5 * MOST_PREDICTED * estimate.uncertainty.correction, names
+
+
+def test_a_mirrored_image_gives_the_mirrored_answer():
+    path = sorted((DATA / "york" / "images").glob("*"))[0]
+    gray = np.asarray(cv2.imread(str(path), cv2.IMREAD_GRAYSCALE))
+    plain, mirrored = (
+        joint({"": detect_for_prelabel(np.ascontiguousarray(image), DetectionParameters())})
+        for image in (gray, gray[:, ::-1])
+    )
+    assert plain.accepted
+    assert mirrored.accepted
+    (cx, cy), k = plain.division.offset, plain.division.k
+    turned = Division(plain.width, plain.height, k, (-cx, cy))
+    assert field_error(turned, mirrored.division, plain.width, plain.height).rms < plain.uncertainty.pred

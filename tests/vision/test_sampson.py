@@ -46,23 +46,36 @@ def test_bend_of_a_parabola_is_its_quadratic_amplitude():
     assert abs(left.cubic[0]) < 0.01
 
 
-def test_slopes_of_the_bend_agree_with_finite_differences(segments_through):
-    # where the lines are straight; elsewhere the frozen weights cost a part as large as the bend that is left
-    binned = bin_segments([segments_through(LENS, 20, noise=0.0)], 640, 480)
-    parameters = np.array([0.25, 0, 0, 0, 0, 0, 0])
-    left = bend(binned, BROWN, parameters, slopes=True)
+@pytest.mark.parametrize("bent", [0.0, 1.0])
+def test_slopes_of_the_bend_agree_with_finite_differences(segments_through, bent: float):
+    binned = bin_segments([segments_through(LENS, 20, noise=0.0, bent=bent)], 640, 480)
+    parameters = np.array([0.15, 0, 0, 0, 0, 0, 0])
+    left = bend(binned, BROWN, parameters, slopes=range(7))
     for column in range(7):
-        shift = 1e-5 * np.eye(7)[column]
+        shift = 1e-4 * np.eye(7)[column]
         ahead, behind = bend(binned, BROWN, parameters + shift), bend(binned, BROWN, parameters - shift)
         for name in ("quadratic", "cubic"):
-            exact = (getattr(ahead, name) - getattr(behind, name)) / 2e-5
-            assert getattr(left, f"{name}_slope")[:, column] == pytest.approx(exact, abs=0.01 * np.abs(exact).max())
+            here, up, down = (getattr(each, name) for each in (left, ahead, behind))
+            # a vertical line's sense may turn between them
+            up, down = (np.where(np.abs(there - here) > np.abs(there + here), -there, there) for there in (up, down))
+            clear = np.abs(here) > np.abs(up - down)
+            exact = (up - down) / 2e-4
+            assert clear.mean() > 0.5
+            slope = getattr(left, f"{name}_slope")[:, column]
+            assert slope[clear] == pytest.approx(exact[clear], abs=1e-3 * np.abs(exact).max())
+
+
+def test_slopes_come_in_the_order_asked_for(segments_through):
+    binned = bin_segments([segments_through(LENS, 5)], 640, 480)
+    every, some = (bend(binned, BROWN, np.zeros(7), slopes=columns) for columns in (range(7), (5, 0)))
+    assert (some.quadratic_slope == every.quadratic_slope[:, [5, 0]]).all()
+    assert bend(binned, BROWN, np.zeros(7)).cubic_slope.shape == (5, 0)
 
 
 def test_division_and_brown_bend_alike_under_weak_lenses(segments_through):
     binned = bin_segments([segments_through(LENS, 20, noise=0.0)], 640, 480)
-    division = bend(binned, DIVISION, np.zeros(5), slopes=True)
-    brown = bend(binned, BROWN, np.zeros(7), slopes=True)
+    division = bend(binned, DIVISION, np.zeros(5), slopes=range(5))
+    brown = bend(binned, BROWN, np.zeros(7), slopes=range(7))
     assert division.quadratic == pytest.approx(brown.quadratic)
-    assert division.quadratic_slope[:, :3] == pytest.approx(brown.quadratic_slope[:, :3])
-    assert division.quadratic_slope[:, 3:] == pytest.approx(brown.quadratic_slope[:, 5:], abs=1e-9)
+    assert division.quadratic_slope[:, :3] == pytest.approx(brown.quadratic_slope[:, :3], abs=1e-4)
+    assert division.quadratic_slope[:, 3:] == pytest.approx(brown.quadratic_slope[:, 5:], abs=1e-4)
