@@ -40,7 +40,7 @@ format: setup
 	$(NODE) biome check --write .
 
 bench: setup
-	$(BIN)/python benchmarks/all.py $(ARGS)
+	$(BIN)/python tools/bench.py $(ARGS)
 
 screenshots: setup
 	$(BIN)/python tools/browser.py

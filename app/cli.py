@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from types import FrameType
+from typing import Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
 
 from app import __version__
+from app.commands.paths import require_folder_possible, require_there
 from app.commands.progress import progress_bar
 from app.errors import ClearLinesError, InvalidInput
 
@@ -21,6 +24,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+INTERRUPTED = 130  # exit status after Ctrl-C
 terminal = Console(stderr=True, highlight=False, soft_wrap=True)
 
 DataDir = Annotated[Path | None, typer.Option("--data", help="Folder of the database and the uploaded files.")]
@@ -38,11 +42,14 @@ def _version(version: Annotated[bool, typer.Option("--version", help="Print the 
 @app.command()
 def demo(data: DataDir = None, port: Port = None, no_browser: NoBrowser = False) -> None:
     """Make a small synthetic street dataset, pre-label it, and open the tool."""
-    from app.commands.demo import demo_settings, prepare_demo
-    from app.commands.serve import address_of, listen, run_server
+    from app.commands.address import address_of, listen
+    from app.commands.demo_settings import demo_settings
 
     settings = demo_settings(_settings(data_dir=data, port=port))
     with listen(settings.host, settings.port) as server:
+        from app.commands.demo import prepare_demo
+        from app.commands.serve import run_server
+
         with progress_bar("Drawing streets") as report:
             slug = prepare_demo(settings, progress=report)
         _announce(address_of(server), settings.data_dir)
@@ -58,11 +65,15 @@ def serve(
     no_browser: NoBrowser = False,
 ) -> None:
     """Serve the browser tool and the API; with IMAGE_DIR its images come in and are pre-labelled."""
-    from app.commands.serve import address_of, import_and_prelabel, listen, require_loopback, run_server
+    from app.commands.address import address_of, listen
 
+    if image_dir is not None:
+        require_there([image_dir])
     settings = _settings(data_dir=data, host=host, port=port)
-    require_loopback(settings.host)
     with listen(settings.host, settings.port) as server:
+        from app.commands.serve import import_and_prelabel, prepare_data, run_server
+
+        prepare_data(settings)
         start = "/"
         if image_dir is not None:
             with progress_bar("Importing") as report:
@@ -84,15 +95,19 @@ def prelabel(
     discard: Annotated[bool, typer.Option("--discard", help="Drop candidates that fail straightness.")] = False,
 ) -> None:
     """Run the pipeline on images, without server or database."""
+    require_there(paths)
+    require_folder_possible(output)
+    sharing: Any = _one_of("--camera", camera, "joint", "per-image")
+    file_format: Any = _one_of("--format", format, "npz", "json", "npy")
     from app.commands.prelabel import PrelabelChoice, prelabel_files
     from app.commands.reports import print_prelabel
     from app.vision import DetectionParameters
 
     choice = PrelabelChoice(
         DetectionParameters.from_dict({"min_length": min_length, "operating_point": operating_point}),
-        camera=_one_of("--camera", camera, "joint", "per-image"),
+        camera=sharing,
         discard=discard,
-        format=_one_of("--format", format, "npz", "json", "npy"),
+        format=file_format,
         workers=workers or os.cpu_count() or 1,
     )
     with progress_bar("Pre-labelling") as report:
@@ -114,6 +129,8 @@ def evaluate(
     min_length: Annotated[float, typer.Option(help="Shorter segments don't count, px.")] = 0.0,
 ) -> None:
     """Score predictions against labels, with pictures, without a server."""
+    require_there([ground_truth, predictions, *([] if images is None else [images])])
+    require_folder_possible(output)
     from app.commands.evaluate import evaluate as evaluate_folder
     from app.commands.reports import print_evaluation
 
@@ -139,6 +156,7 @@ def synthesize(
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same images.")] = 0,
 ) -> None:
     """Make street scenes with the exact visible straight edges as labels."""
+    require_folder_possible(output)
     from app.commands.synthesize import synthesize_folder
 
     with progress_bar("Drawing streets") as report:
@@ -153,6 +171,7 @@ def import_(
     data: DataDir = None,
 ) -> None:
     """Bring a dataset's images and labels into the database."""
+    require_there([folder])
     from app.commands.exchange import import_images
     from app.commands.reports import print_import
 
@@ -177,6 +196,7 @@ def export(
     data: DataDir = None,
 ) -> None:
     """Write a dataset's labels, for ClearLines or for another tool."""
+    require_folder_possible(output)
     from app.commands.exchange import export_labels
     from app.services.exporting import ExportChoice
 
@@ -190,17 +210,25 @@ def export(
 
 def main() -> None:
     """Run the command line; errors of ours are told in one line, without a traceback."""
+    signal.signal(signal.SIGTERM, _end)
     try:
         app(standalone_mode=True)
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            terminal.print("stopped; the same command goes on where this one was")
+        raise
     except ClearLinesError as error:
         _tell(error)
         sys.exit(2)
     except OSError as error:
-        terminal.print(f"[bold red]error:[/] {error.strerror or error}: {error.filename or ''}")
+        where = None if error.filename is None else str(error.filename)
+        _tell(ClearLinesError(error.strerror or str(error), where=where))
         sys.exit(2)
-    except KeyboardInterrupt:
-        terminal.print("stopped; the same command goes on where this one was")
-        sys.exit(130)
+
+
+def _end(number: int, _frame: FrameType | None) -> NoReturn:
+    """End as after Ctrl-C: whatever is at work puts itself away."""
+    sys.exit(128 + number)
 
 
 def _tell(error: ClearLinesError) -> None:
@@ -213,9 +241,18 @@ def _tell(error: ClearLinesError) -> None:
 
 
 def _settings(**given: Any) -> Any:
+    from pydantic import ValidationError
+
     from app.settings import Settings
 
-    return Settings(**{name: value for name, value in given.items() if value is not None})
+    try:
+        settings = Settings(**{name: value for name, value in given.items() if value is not None})
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(map(str, first["loc"]))
+        raise InvalidInput(first["msg"], where=f"setting {field}", hint=f"see CLEARLINES_{field.upper()}") from error
+    require_folder_possible(settings.data_dir)
+    return settings
 
 
 def _folder_name(folder: Path) -> str:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from datetime import timedelta
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import platformdirs
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
-from sqlalchemy import URL
+
+if TYPE_CHECKING:
+    from sqlalchemy import URL
 
 MEBIBYTE = 2**20
 
@@ -48,6 +51,9 @@ class Settings(BaseSettings):
     @property
     def database_address(self) -> str | URL:
         """The database's address, from ``database_url`` or in ``data_dir``."""
+        # it takes long to import, and a command that ends before it needs the database doesn't wait for it
+        from sqlalchemy import URL
+
         # not as text: a folder's name may hold what means something in an address
         return self.database_url or URL.create("sqlite", database=str(self.data_dir.absolute() / "clearlines.sqlite3"))
 

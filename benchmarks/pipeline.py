@@ -12,7 +12,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from reporting import Target, arguments, finish, show_table
+from shared.reporting import Target, arguments, finish, show_table
 
 from app.evaluation.line_iou import line_iou_matrix
 from app.evaluation.matching import match_one_to_one

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
-from datetime import UTC, datetime
 from pathlib import Path
 
 from fastapi import APIRouter, FastAPI, Request
@@ -19,6 +18,7 @@ from app.api.guard import Guard
 from app.api.head import HeadAsGet
 from app.api.problems import answers, install_problem_handlers
 from app.api.routers import cameras, datasets, exports, images, labelling, runs, system, uploads
+from app.clock import utc_now
 from app.db.session import open_database, upgrade
 from app.jobs.dispatcher import Dispatcher
 from app.jobs.housekeeping import Housekeeper
@@ -32,11 +32,6 @@ Turn street images into ground truth for straight edge-segments: upload, pre-lab
 
 Coordinates: x right, y down, in px, pixel centre at integers. Errors are problem documents (RFC 9457).
 """
-
-
-def utc_now() -> datetime:
-    """Return the time, UTC; the one clock of a served application."""
-    return datetime.now(UTC)
 
 
 def create_application(settings: Settings) -> FastAPI:

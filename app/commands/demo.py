@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import platformdirs
-
 from app.commands.serve import import_and_prelabel
 from app.commands.synthesize import synthesize_folder
 from app.settings import Settings
@@ -14,14 +12,6 @@ from app.settings import Settings
 IMAGES = 12
 SEED = 7
 NAME = "Demo streets"
-
-
-def demo_settings(settings: Settings) -> Settings:
-    """Return the settings with a data folder of the demo's own, unless one is given."""
-    if "data_dir" in settings.model_fields_set:
-        return settings
-    folder = platformdirs.user_data_path("clearlines", appauthor=False) / "demo"
-    return settings.model_copy(update={"data_dir": folder})
 
 
 def prepare_demo(settings: Settings, *, progress: Callable[[int, int], None] | None = None) -> str:

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
-from app.api.application import utc_now
-from app.db.session import Database, open_database, upgrade
+from app.clock import utc_now
+from app.commands.stores import opened_stores
 from app.formats.members import fill_folder
 from app.services.exporting import ExportChoice, export_members
 from app.services.import_limits import import_limits
 from app.services.imports import FolderImport, import_folder
 from app.settings import Settings
-from app.storage import BlobStore
 
 
 def import_images(
@@ -35,7 +33,7 @@ def import_images(
         if progress is not None:
             progress(done, total)
 
-    with _opened(settings) as (database, blobs):
+    with opened_stores(settings) as (database, blobs):
         return import_folder(
             database,
             blobs,
@@ -66,7 +64,7 @@ def export_labels(
     Raises:
         ClearLinesError: As `app.services.exporting.export_members`.
     """
-    with _opened(settings) as (database, blobs), database.read() as session:
+    with opened_stores(settings) as (database, blobs), database.read() as session:
         members = export_members(session, blobs, slug, choice)
         return fill_folder(_counted(members, on_file), output)
 
@@ -78,13 +76,3 @@ def _counted(
         yield member
         if on_file is not None:
             on_file(number)
-
-
-@contextmanager
-def _opened(settings: Settings) -> Iterator[tuple[Database, BlobStore]]:
-    database = open_database(settings.database_address)
-    try:
-        upgrade(database)
-        yield database, BlobStore(settings.blob_dir)
-    finally:
-        database.close()

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.errors import ClearLinesError, InvalidInput, NotFound
+from app.commands.paths import require_there
+from app.errors import ClearLinesError, InvalidInput
 from app.formats.dataset import DatasetImage, assign_cameras, read_dataset
 from app.formats.files import read_file
-from app.formats.naming import is_image_path, name_of
+from app.formats.naming import check_names, is_image_path, name_of
 from app.images import ImageHeader, describe
 
 
@@ -41,6 +42,7 @@ def find_prelabel_images(paths: Sequence[Path]) -> list[FoundImage]:
         NotFound: If a path doesn't exist, or a folder holds no image.
         InvalidInput: If a file is no image, or two images have one name.
     """
+    require_there(paths)
     found = [image for path in paths for image in _images_under(path)]
     by_name: dict[str, FoundImage] = {}
     for image in found:
@@ -58,8 +60,6 @@ def _images_under(path: Path) -> list[FoundImage]:
     if path.is_dir():
         dataset = read_dataset(path)
         return _described(path, dataset.images)
-    if not path.is_file():
-        raise NotFound("there is no such file or folder", where=str(path))
     if not is_image_path(path):
         raise InvalidInput("the file doesn't look like an image", where=str(path), expected=".png, .jpg, .tif ...")
     return _described(path.parent, [DatasetImage(name_of(path.name), path.name)])
@@ -70,6 +70,7 @@ def _described(root: Path, images: Sequence[DatasetImage]) -> list[FoundImage]:
     errors: dict[str, ClearLinesError] = {}
     for image in images:
         try:
+            check_names([image.name], where=_printable(image.path))
             headers[image.name] = describe(read_file(root / image.path))
         except ClearLinesError as error:
             errors[image.name] = error
@@ -77,7 +78,7 @@ def _described(root: Path, images: Sequence[DatasetImage]) -> list[FoundImage]:
     cameras = assign_cameras([image for image in images if image.name in sizes], sizes)
     return [
         FoundImage(
-            image.name,
+            _printable(image.name),
             root / image.path,
             cameras.get(image.name, ""),
             headers.get(image.name),
@@ -85,3 +86,8 @@ def _described(root: Path, images: Sequence[DatasetImage]) -> list[FoundImage]:
         )
         for image in images
     ]
+
+
+def _printable(name: str) -> str:
+    """Return the name with what isn't UTF-8 spelt out; the file system takes any bytes, a report doesn't."""
+    return name.encode("utf-8", "backslashreplace").decode()

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.table import Table
 
-from app.commands.evaluate import EvaluatedFolder
-from app.commands.prelabel import PrelabelReport
 from app.evaluation.summary import summary_text
-from app.services.imports import FolderImport
+
+if TYPE_CHECKING:  # each command loads what it needs alone, not the others' too
+    from app.commands.evaluate import EvaluatedFolder
+    from app.commands.prelabel import PrelabelReport
+    from app.services.imports import FolderImport
 
 SHOWN = 20
 

@@ -11,7 +11,7 @@ from app.errors import ClearLinesError, InvalidFile, InvalidInput, NotFound
 from app.formats.files import read_file
 from app.formats.labelled import LabelledSegments
 from app.formats.limits import SEGMENT_LIMITS, SET_LIMITS
-from app.formats.naming import name_segment_files
+from app.formats.naming import check_names, name_segment_files
 from app.formats.segment_files import list_segment_files, read_segment_set, read_segments
 
 Read = Callable[[], LabelledSegments]
@@ -51,6 +51,7 @@ def open_segment_files(path: Path, what: str, images: Collection[str] = ()) -> S
         raise NotFound(f"the {what} folder doesn't exist", where=str(path), hint="is the path right?")
     try:
         files, ambiguous = name_segment_files(list_segment_files(path), set(images))
+        check_names([*files, *ambiguous], where=str(path))
     except InvalidInput as error:
         raise InvalidInput(
             error.message, where=str(path), expected=error.expected, hint=error.hint, details=error.details

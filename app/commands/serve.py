@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 import socket
 import threading
 import webbrowser
@@ -11,64 +10,17 @@ from pathlib import Path
 
 import uvicorn
 
-from app.api.application import create_application, utc_now
+from app.api.application import create_application
+from app.clock import utc_now
+from app.commands.address import address_of
 from app.commands.exchange import import_images
-from app.db.session import open_database, upgrade
-from app.errors import Forbidden, Unavailable
+from app.commands.stores import opened_stores
 from app.services import runs
 from app.services.datasets import get_dataset
 from app.services.image_lists import ImageFilter, list_images
 from app.settings import Settings
 
 Progress = Callable[[int, int], None]
-LOOPBACK_NAMES = frozenset({"localhost"})
-
-
-def require_loopback(host: str) -> None:
-    """Refuse addresses that others could reach: there are no accounts yet, and the one owner may do everything.
-
-    Raises:
-        Forbidden: When the address isn't a loopback one.
-    """
-    try:
-        loopback = ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        loopback = host.lower() in LOOPBACK_NAMES
-    if not loopback:
-        raise Forbidden(
-            "this address could be reached from outside, and there are no accounts yet",
-            where=f"--host {host}",
-            expected="127.0.0.1, ::1 or localhost",
-            hint="from another machine, use an SSH tunnel: ssh -L 8765:127.0.0.1:8765 HOST",
-        )
-
-
-def listen(host: str, port: int) -> socket.socket:
-    """Return a socket that listens on the address.
-
-    Raises:
-        Unavailable: When it can't be had; most often because the port is taken.
-    """
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    server = socket.socket(family, socket.SOCK_STREAM)
-    server.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        server.bind((host.strip("[]"), port))
-        server.listen()
-    except OSError as error:
-        server.close()
-        raise Unavailable(
-            f"can't listen there: {error.strerror or error}",
-            where=f"{host}:{port}",
-            hint="is ClearLines running already? Another port: --port 0 takes a free one",
-        ) from error
-    return server
-
-
-def address_of(server: socket.socket) -> str:
-    """Return the address to open in a browser."""
-    host, port = server.getsockname()[:2]
-    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
 def import_and_prelabel(settings: Settings, folder: Path, name: str, *, progress: Progress | None = None) -> str:
@@ -80,25 +32,30 @@ def import_and_prelabel(settings: Settings, folder: Path, name: str, *, progress
         The dataset's slug.
     """
     imported = import_images(settings, folder, name, progress=progress)
-    database = open_database(settings.database_address)
-    upgrade(database)
-    try:
-        with database.write() as session:
-            dataset = get_dataset(session, imported.slug)
-            chosen = ImageFilter(prelabel="none", status="open")
-            fresh: list[int] = []
-            cursor = None
-            while True:
-                page = list_images(session, dataset, chosen, limit=500, cursor=cursor)
-                fresh += [image.id for image in page.items if image.candidates == 0]
-                cursor = page.next_cursor
-                if cursor is None:
-                    break
-            if fresh:
-                runs.start_run(session, dataset, {}, fresh, utc_now(), person=settings.person)
-    finally:
-        database.close()
+    with opened_stores(settings) as (database, _), database.write() as session:
+        dataset = get_dataset(session, imported.slug)
+        chosen = ImageFilter(prelabel="none", status="open")
+        fresh: list[int] = []
+        cursor = None
+        while True:
+            page = list_images(session, dataset, chosen, limit=500, cursor=cursor)
+            fresh += [image.id for image in page.items if image.candidates == 0]
+            cursor = page.next_cursor
+            if cursor is None:
+                break
+        if fresh:
+            runs.start_run(session, dataset, {}, fresh, utc_now(), person=settings.person)
     return imported.slug
+
+
+def prepare_data(settings: Settings) -> None:
+    """Make the data folder and the tables if missing, so that what is wrong with them is told before the server starts.
+
+    Raises:
+        ClearLinesError: As `app.commands.stores.opened_stores`.
+    """
+    with opened_stores(settings):
+        pass
 
 
 def run_server(settings: Settings, server: socket.socket, *, open_at: str | None = None) -> None:

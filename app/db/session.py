@@ -47,9 +47,16 @@ class Database:
 
     @contextmanager
     def read(self) -> Iterator[Session]:
-        """Give a session that sees one snapshot and can't write (the database itself refuses)."""
-        with Session(self._engine_for_reading(), expire_on_commit=False, autoflush=False) as session:
-            yield session
+        """Give a session that sees one snapshot and can't write (the database itself refuses).
+
+        Raises:
+            Unavailable: When the database is out of reach.
+        """
+        try:
+            with Session(self._engine_for_reading(), expire_on_commit=False, autoflush=False) as session:
+                yield session
+        except DBAPIError as error:
+            raise _as_told(error) from error
 
     @contextmanager
     def write(self) -> Iterator[Session]:
@@ -102,10 +109,25 @@ def open_database(url: str | URL, *, busy_timeout: float = BUSY_TIMEOUT) -> Data
 
 
 def upgrade(database: Database) -> None:
-    """Bring the tables to this version's form; safe to call at each start, also by several processes at once."""
-    from app.db.migrations import run_upgrade  # Alembic takes long to import, and most of the code never needs it
+    """Bring the tables to this version's form; safe to call at each start, also by several processes at once.
 
-    run_upgrade(database.engine)
+    Raises:
+        Unavailable: When the database is locked, out of reach, or may not be written.
+    """
+    # Alembic takes long to import, and most of the code never needs it
+    from alembic.util import CommandError
+
+    from app.db.migrations import run_upgrade
+
+    try:
+        run_upgrade(database.engine)
+    except CommandError as error:
+        raise Unavailable(
+            f"the tables can't be brought to this version's form: {error}",
+            hint="a newer version of ClearLines made them; use that one, or another data folder",
+        ) from error
+    except DBAPIError as error:
+        raise _as_told(error) from error
 
 
 def _checked_address(url: str | URL) -> URL:
@@ -168,6 +190,8 @@ def _as_told(error: DBAPIError) -> Exception:
         "SQLITE_CONSTRAINT_PRIMARYKEY",
     ):
         return Conflict("someone else stored the same thing at the same moment", hint="reload and try again")
+    if state == "SQLITE_NOTADB":
+        return InvalidInput("the file is no SQLite database", where="database_url", hint="is it the right file?")
     if isinstance(error, OperationalError):
         return Unavailable(f"the database can't answer: {cause}", hint="try again in a moment")
     return error

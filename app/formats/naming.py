@@ -83,7 +83,8 @@ def has_control_characters(text: str) -> bool:
 
 def is_hidden(path: str | PurePath) -> bool:
     """Whether a path has a part that systems hide or add by themselves; such files are left out everywhere."""
-    return any(part.startswith(".") or part == "__MACOSX" for part in PurePath(path).parts)
+    parts = PurePath(path).parts
+    return any((part.startswith(".") and part != "..") or part == "__MACOSX" for part in parts)
 
 
 def is_image_path(path: str | PurePath) -> bool:

@@ -32,7 +32,7 @@ def get_dataset(session: Session, slug: str) -> Dataset:
     Raises:
         NotFound: When there is none of that slug.
     """
-    found = session.scalars(select(Dataset).where(Dataset.slug == slug)).one_or_none()
+    found = _of_slug(session, slug)
     if found is None:
         raise NotFound(f"there is no dataset {slug}", hint="the list of datasets shows their slugs")
     if found.deleted_at is not None:
@@ -47,7 +47,7 @@ def create_dataset(session: Session, name: str, now: datetime, *, person: str | 
         InvalidInput: When the name is empty or too long.
         Conflict: When a dataset of that name exists.
     """
-    name = _checked_name(name)
+    name = checked_dataset_name(name)
     _require_free_name(session, name)
     dataset = Dataset(slug=_take_slug(session, slug_of(name)), name=name, created_at=now)
     session.add(dataset)
@@ -65,7 +65,7 @@ def rename_dataset(session: Session, slug: str, name: str, now: datetime, *, per
         Conflict: When another dataset has that name.
     """
     dataset = get_dataset(session, slug)
-    name = _checked_name(name)
+    name = checked_dataset_name(name)
     if name != dataset.name:
         _require_free_name(session, name)
         details = {"from": dataset.name, "to": name}
@@ -93,7 +93,7 @@ def restore_dataset(session: Session, slug: str, now: datetime, *, person: str |
         NotFound: When there is none of that slug any more.
         Conflict: When it isn't deleted, or another one took its name meanwhile.
     """
-    dataset = session.scalars(select(Dataset).where(Dataset.slug == slug)).one_or_none()
+    dataset = _of_slug(session, slug, lock=True)
     if dataset is None:
         raise NotFound(f"there is no dataset {slug}", hint="after the grace period a deleted one is gone for good")
     if dataset.deleted_at is None:
@@ -105,7 +105,19 @@ def restore_dataset(session: Session, slug: str, now: datetime, *, person: str |
     return dataset
 
 
-def _checked_name(name: str) -> str:
+def _of_slug(session: Session, slug: str, *, lock: bool = False) -> Dataset | None:
+    if not slug.isascii():  # no slug; and what a terminal gives may be no text that a database takes
+        return None
+    query = select(Dataset).where(Dataset.slug == slug)
+    return session.scalars(query.with_for_update() if lock else query).one_or_none()
+
+
+def checked_dataset_name(name: str) -> str:
+    """Return the name in Unicode's composed form, with single spaces.
+
+    Raises:
+        InvalidInput: When it is empty, too long, or has control characters.
+    """
     name = " ".join(unicodedata.normalize("NFC", name).split())
     if not name or len(name) > NAME_LENGTH or not name.isprintable():
         raise InvalidInput(

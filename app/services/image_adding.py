@@ -11,10 +11,10 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Blob, Dataset, Image, Review
 from app.errors import ClearLinesError, InvalidInput, Unavailable
-from app.formats.naming import check_image_name, composed, is_image_path, name_of
+from app.formats.naming import check_image_name, check_names, composed, is_image_path, name_of
 from app.images import ImageHeader, describe
 from app.services.cameras import camera_for, default_camera_name
-from app.services.images import NAME_LENGTH, is_named, name_conflict
+from app.services.images import NAME_LENGTH, WORD_LENGTH, is_named, name_conflict
 from app.storage import BlobStore
 
 
@@ -69,7 +69,9 @@ def checked_file_name(file_name: str) -> str:
         InvalidInput: When it is no path under a root, or too long.
     """
     path = composed(file_name.replace("\\", "/").removeprefix("./"))
-    check_image_name(name_of(path) if is_image_path(path) else path, where="file name")
+    check_names([path], where="file name")
+    if is_image_path(path):
+        check_image_name(name_of(path), where="file name")
     if len(path) > NAME_LENGTH:
         raise InvalidInput("the path is too long", where=path[:60], expected=f"at most {NAME_LENGTH} characters")
     return path
@@ -95,13 +97,14 @@ def add_image(
         received: The image.
         now: When.
         camera: Name of its camera; images of one folder and size share one when left out.
-        source: Where it comes from; its folder when left out.
+        source: Where it comes from; its folder when left out. The end of it, if it is too long.
         sequence: The drive it belongs to.
 
     Raises:
         Conflict: When another image of the dataset has its name.
         InvalidInput: When its camera takes images of another size.
     """
+    session.refresh(dataset, with_for_update=True)  # of two that add the same at once, the second finds the first one's
     present = select(Image).where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None))
     same = session.scalars(present.where(Image.sha256 == received.sha256)).one_or_none()
     if same is not None:
@@ -123,7 +126,7 @@ def add_image(
         height=header.height,
         bits=header.bits,
         camera=camera_for(session, dataset, camera_name, header.width, header.height, now),
-        source=source or received.name.rpartition("/")[0] or None,
+        source=(source or received.name.rpartition("/")[0])[-WORD_LENGTH:] or None,
         sequence=sequence or None,
         created_at=now,
         review=Review(status="open", updated_at=now),

@@ -17,9 +17,7 @@ from app.formats.naming import check_image_name, composed
 from app.services.batches import in_batches
 from app.services.cameras import camera_for, checked_camera_name
 from app.services.events import record_event
-from app.services.images import NAME_LENGTH, NAMES_SHOWN, images_of, is_named, name_conflict
-
-WORD_LENGTH = 300
+from app.services.images import NAME_LENGTH, NAMES_SHOWN, WORD_LENGTH, images_of, is_named, name_conflict
 
 
 class Unchanged(Enum):

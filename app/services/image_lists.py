@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from sqlalchemy import ColumnElement, Select, func, select
 from sqlalchemy.orm import InstrumentedAttribute, Session
 
-from app.db.models import REVIEW_STATES, WORK_STATES, Camera, Dataset, Image, Review, Run, RunImage
+from app.db.models import REVIEW_STATES, Camera, Dataset, Image, Review, Run, RunImage
 from app.errors import InvalidInput
 from app.services.image_summaries import ImageSummary, latest_work, select_summaries, summaries_of
 from app.services.paging import Order, Page, checked_limit, page_of
 
-PRELABEL_STATES = ("none", *WORK_STATES)
+PRELABEL_STATES = ("none", "queued", "running", "done", "failed")
 
 ORDERS = {
     order.name: order

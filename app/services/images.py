@@ -16,7 +16,11 @@ from app.services.datasets import Deleted
 from app.services.events import record_event
 
 NAME_LENGTH = 500
+WORD_LENGTH = 300
+"""Longest source or sequence of an image."""
+
 NAMES_SHOWN = 20
+NAMES_AT_ONCE = 2_000
 
 
 def get_image(session: Session, image_id: int, *, deleted: bool = False) -> Image:
@@ -134,7 +138,7 @@ def _require_free(session: Session, dataset: Dataset, images: Sequence[Image]) -
     taken: list[str] = []
     names: set[str] = set()
     contents: set[str] = set()
-    for batch in in_batches(images):
+    for batch in in_batches(images, NAMES_AT_ONCE):
         alive = select(Image.name, Image.sha256).where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None))
         wanted = is_named(*(image.name for image in batch)) | Image.sha256.in_([image.sha256 for image in batch])
         for name, sha256 in session.execute(alive.where(wanted)):

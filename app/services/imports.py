@@ -22,7 +22,7 @@ from app.formats.files import read_file
 from app.formats.reference_camera import ReferenceCamera
 from app.formats.segment_files import read_segments
 from app.services.cameras import default_camera_name, stored_reference
-from app.services.datasets import create_dataset
+from app.services.datasets import checked_dataset_name, create_dataset
 from app.services.events import record_event
 from app.services.image_adding import ReceivedImage, add_image, receive_image
 from app.services.image_summaries import image_summaries
@@ -203,6 +203,7 @@ def _report(importer: Importer, outcome: _Outcome, origin: str) -> ImportReport:
 
 
 def _dataset_of_name(session: Session, name: str, now: datetime, person: str | None) -> Dataset:
+    name = checked_dataset_name(name)
     query = select(Dataset).where(Dataset.deleted_at.is_(None), or_(Dataset.name == name, Dataset.slug == name))
     found = session.scalars(query.order_by(Dataset.name != name).limit(1)).one_or_none()
     return found or create_dataset(session, name, now, person=person)

@@ -45,6 +45,7 @@ def start_run(
         Conflict: When there are no images, or another run is at work on some of them.
     """
     chosen = RunParameters.from_dict(parameters)
+    session.refresh(dataset, with_for_update=True)  # of two that start at once, the second sees the first one's run
     wanted = wanted_images(session, dataset, image_ids)
     refuse_busy_images(session, dataset, set(wanted))
     run = Run(

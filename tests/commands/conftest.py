@@ -2,31 +2,70 @@
 
 from __future__ import annotations
 
+import io
 import os
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
-Run = Callable[..., subprocess.CompletedProcess[str]]
+from app.cli import main
+
+Done = subprocess.CompletedProcess[str]
+Run = Callable[..., Done]
+INSTALLED = Path(sys.executable).with_name("clearlines")
 
 
 @pytest.fixture
-def clearlines(tmp_path: Path) -> Run:
-    """Run the installed command in a process of its own, in an empty folder."""
+def clearlines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Run]:
+    """Run the command as its entry point does, in this process: a new one would spend seconds on its imports."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("CLEARLINES_DATA_DIR", str(tmp_path / "data"))
+    on_terminate = signal.getsignal(signal.SIGTERM)
 
-    def run(*arguments: object, status: int = 0) -> subprocess.CompletedProcess[str]:
-        command = [Path(sys.executable).with_name("clearlines"), *map(str, arguments)]
-        environment = {**os.environ, "CLEARLINES_DATA_DIR": str(tmp_path / "data"), "COLUMNS": "200"}
-        done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
-        assert done.returncode == status, f"{done.stdout}\n{done.stderr}"
-        return done
+    def run(*arguments: object, status: int = 0) -> Done:
+        monkeypatch.setattr(sys, "argv", ["clearlines", *map(str, arguments)])
+        out, err = io.StringIO(), io.StringIO()
+        code = 0
+        with redirect_stdout(out), redirect_stderr(err):
+            try:
+                main()
+            except SystemExit as end:
+                code = end.code if isinstance(end.code, int) else 1
+        assert code == status, f"{out.getvalue()}\n{err.getvalue()}"
+        return subprocess.CompletedProcess(sys.argv, code, out.getvalue(), err.getvalue())
 
-    return run
+    yield run
+    signal.signal(signal.SIGTERM, on_terminate)
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Start the installed command in a process of its own, in an empty folder; at the end it is killed."""
+    running: list[subprocess.Popen[str]] = []
+
+    def start(*arguments: object) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            [INSTALLED, *map(str, arguments)],
+            cwd=tmp_path,
+            env={**os.environ, "CLEARLINES_DATA_DIR": str(tmp_path / "data"), "CLEARLINES_WORKERS": "1"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        running.append(process)
+        return process
+
+    yield start
+    for process in running:
+        process.kill()
+        process.communicate()
 
 
 @pytest.fixture

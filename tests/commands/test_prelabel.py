@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from app.commands import prelabel as command
+from app.commands.detection_cache import DetectionCache
 from app.commands.prelabel import PrelabelChoice, prelabel_files
 from app.errors import InvalidInput, NotFound
 from app.formats.inert_npy import read_label_npy
@@ -98,10 +100,25 @@ def test_the_same_call_after_an_interruption_goes_on_where_it_was(
     assert not (out / ".prelabel").exists()
 
 
-def test_other_parameters_are_other_detections(street: Path, tmp_path: Path) -> None:
-    long = prelabel_files([street], tmp_path / "out", PrelabelChoice(DetectionParameters(min_length=190)))
-    short = prelabel_files([street], tmp_path / "out", PrelabelChoice(DetectionParameters(min_length=20)))
-    assert short.candidates > long.candidates
+def test_a_file_name_that_is_no_text_fails_alone(clearlines: Any, street: Path, tmp_path: Path) -> None:
+    odd = os.fsencode(street) + b"/odd\xff.png"
+    try:
+        (street / "a" / "one.png").rename(os.fsdecode(odd))
+    except OSError:
+        pytest.skip("this file system takes UTF-8 alone")
+    done = clearlines("prelabel", street, "--output", "out", "--min-length", 60, "--workers", 1, status=1)
+    assert "failed: odd\\udcff" in done.stderr
+    entries = json.loads((tmp_path / "out" / "prelabel.json").read_text())["images"]
+    assert [(entry["name"], "error" in entry) for entry in entries] == [("a/two", False), ("odd\\udcff", True)]
+
+
+def test_other_parameters_and_other_images_are_other_detections(tmp_path: Path) -> None:
+    keys = {
+        DetectionCache(tmp_path, DetectionParameters(min_length=length).as_dict()).key(content)
+        for length in (20, 190)
+        for content in (b"one", b"two")
+    }
+    assert len(keys) == 4
 
 
 def test_per_image_cameras_have_a_lens_each(street: Path, tmp_path: Path) -> None:

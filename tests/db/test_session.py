@@ -5,13 +5,14 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from datetime import datetime
+from pathlib import Path
 
 import pytest
 from sqlalchemy import select, text
 from sqlalchemy.exc import DBAPIError
 
 from app.db.models import Dataset
-from app.db.session import Database, open_database
+from app.db.session import Database, open_database, upgrade
 from app.errors import Conflict, InvalidInput, Unavailable
 
 
@@ -138,3 +139,20 @@ def test_a_writer_in_the_way_is_told_as_unavailable(sqlite_database: Database, n
 def test_addresses_that_can_not_be_used(address: str, words: str) -> None:
     with pytest.raises(InvalidInput, match=words):
         open_database(address)
+
+
+def test_a_database_out_of_reach_is_unavailable_to_whoever_reads_writes_or_upgrades() -> None:
+    database = open_database("postgresql://nobody@127.0.0.1:1/nothing")
+    with pytest.raises(Unavailable, match="can't answer"), database.read() as session:
+        session.scalar(select(Dataset.id))
+    with pytest.raises(Unavailable, match="can't answer"), database.write() as session:
+        session.scalar(select(Dataset.id))
+    with pytest.raises(Unavailable, match="can't answer"):
+        upgrade(database)
+
+
+def test_a_file_that_is_no_database_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "notes.txt"
+    path.write_bytes(b"no database at all" * 100)
+    with pytest.raises(InvalidInput, match="no SQLite database"):
+        upgrade(open_database(f"sqlite:///{path}"))

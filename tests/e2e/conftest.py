@@ -120,3 +120,22 @@ def page(browser: Browser) -> Iterator[Page]:
     yield page
     context.close()
     assert errors == []
+
+
+@pytest.fixture(scope="session")
+def label_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """A server for the tests of the label page, each of which imports a dataset of its own."""
+    server = launch(tmp_path_factory.mktemp("label") / "data")
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="session")
+def import_dataset() -> Callable[[RunningServer, Path, str], None]:
+    """Return what brings a folder into a running server's database."""
+
+    def import_dataset(server: RunningServer, folder: Path, name: str) -> None:
+        command = [CLEARLINES, "import", folder, "--dataset", name, "--data", server.data]
+        subprocess.run(command, check=True, capture_output=True)
+
+    return import_dataset

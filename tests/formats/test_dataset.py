@@ -141,7 +141,7 @@ def test_images_csv_as_a_person_writes_it():
         ("name,camera\na,x,y\n", "more fields"),
         ("name\na\na\n", "twice"),
         ("name\na\nq\nz\n", "q, z"),
-        ("name,camera\na," + "x" * 201 + "\n", "too long"),
+        ("name,camera\na," + "x" * 301 + "\n", "too long"),
         ('name,camera\na,"x\ny"\n', "control"),
         ('name,camera\na,"x\n', "can't be read"),
     ],

@@ -4,6 +4,8 @@ import pytest
 
 from app.errors import InvalidFile, InvalidInput
 from app.formats.naming import (
+    AMBIGUOUS,
+    check_image_name,
     check_names,
     is_image_path,
     is_segment_path,
@@ -100,3 +102,17 @@ def test_two_files_for_one_image_are_an_error():
 def test_names_that_are_no_paths(name):
     with pytest.raises(InvalidFile):
         check_names(["good/name", name], where="file")
+
+
+@pytest.mark.parametrize("name", ["../a", "a/.b/c", ".a", "__MACOSX/a", "x" * 228, "K/" + "é" * 114])
+def test_names_that_could_not_be_exported_and_read_again(name):
+    with pytest.raises(InvalidFile):
+        check_image_name(name, where="name")
+
+
+@pytest.mark.parametrize("name", ["a", "K/0.1", "a.b/c..d", "x" * 227, "K/" + "é" * 113])
+def test_names_whose_label_files_can_be_written(name, tmp_path):
+    check_image_name(name, where="name")
+    path = tmp_path / f"{name}{AMBIGUOUS}.npy"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(b"")

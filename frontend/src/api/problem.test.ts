@@ -22,5 +22,6 @@ describe("problems", () => {
   it("are made of an image's error, and of a defect", () => {
     expect(asProblem({ code: "broken-image", message: "Cut off." }, "Failed").title).toBe("Failed");
     expect(asProblem(new TypeError("x is undefined")).message).toBe("x is undefined");
+    expect(asProblem(new DOMException("Not decoded.", "EncodingError")).message).toBe("Not decoded.");
   });
 });

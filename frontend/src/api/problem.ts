@@ -43,9 +43,10 @@ export function problemFrom(body: unknown, response: Response): RequestFailed {
 /** Anything that went wrong as a problem, so that every error state can be shown in one form. */
 export function asProblem(error: unknown, title = "Something went wrong"): Problem {
   if (error instanceof RequestFailed) return error.problem;
+  // First: a DOMException has a code too, and spread it would leave its message behind.
+  if (error instanceof Error) return { title, status: 0, code: "unexpected", message: error.message };
   if (isErrorInfo(error)) return { title, status: 0, ...error };
-  const message = error instanceof Error ? error.message : String(error);
-  return { title, status: 0, code: "unexpected", message };
+  return { title, status: 0, code: "unexpected", message: String(error) };
 }
 
 function isProblem(body: unknown): body is Problem {

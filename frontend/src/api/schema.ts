@@ -3115,7 +3115,9 @@ export interface operations {
     read_original_api_images__image_id__original_get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                "if-none-match"?: string | null;
+            };
             path: {
                 image_id: number;
             };

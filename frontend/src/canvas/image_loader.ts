@@ -5,42 +5,55 @@
  * the server removes it from what it serves for display; a turned image is refused here, never shown.
  */
 
-import { problemFrom, unreachable } from "../api/problem";
+import { problemFrom, RequestFailed, unreachable } from "../api/problem";
+import type { Problem } from "../api/types";
 import type { Size } from "./viewport";
 
 /** Decoded images are large, 4 bytes per pixel: 256 MB. The one that is shown is kept whatever it measures. */
 const MOST_PIXELS = 64e6;
 
+const UNREADABLE: Problem = {
+  title: "The image can't be shown",
+  status: 422,
+  code: "unreadable-image",
+  message: "Its file is broken or cut off.",
+  hint: "Upload it again, or discard the image.",
+};
+
 interface Kept {
   readonly bitmap: Promise<ImageBitmap>;
-  readonly pixels: number;
+  /** 0 until it is decoded. */
+  pixels: number;
 }
 
 export class ImageLoader {
   /** The latest asked for is the last. */
   private readonly images = new Map<string, Kept>();
 
-  /** @param size What the image measures as stored. */
-  load(url: string, size: Size): Promise<ImageBitmap> {
+  load(url: string): Promise<ImageBitmap> {
     const known = this.images.get(url);
     if (known !== undefined) {
       this.images.delete(url);
       this.images.set(url, known);
       return known.bitmap;
     }
-    const bitmap = fetchBitmap(url, size);
-    this.images.set(url, { bitmap, pixels: size.width * size.height });
-    // A failure isn't remembered: the next attempt asks again.
-    bitmap.catch(() => this.images.delete(url));
-    this.forgetOldest();
-    return bitmap;
+    const kept: Kept = { bitmap: fetchBitmap(url), pixels: 0 };
+    this.images.set(url, kept);
+    kept.bitmap.then(
+      ({ width, height }) => {
+        kept.pixels = width * height;
+        this.forgetOldest();
+      },
+      // A failure isn't remembered: the next attempt asks again.
+      () => this.images.delete(url),
+    );
+    return kept.bitmap;
   }
 
   /** Loads an image that may be wanted soon, unless it is so large that the shown one would have to go. */
-  async prefetch(url: string, size: Size): Promise<void> {
-    const pixels = size.width * size.height;
-    if (this.images.has(url) || 2 * pixels > MOST_PIXELS) return;
-    await this.load(url, size).catch(() => undefined);
+  async prefetch(url: string, { width, height }: Size): Promise<void> {
+    if (this.images.has(url) || 2 * width * height > MOST_PIXELS) return;
+    await this.load(url).catch(() => undefined);
   }
 
   private forgetOldest(): void {
@@ -53,16 +66,23 @@ export class ImageLoader {
   }
 }
 
-async function fetchBitmap(url: string, size: Size): Promise<ImageBitmap> {
+/** @throws Error where an image didn't arrive with the pixels that it has as stored. */
+export function requireStoredSize(bitmap: ImageBitmap, stored: Size): void {
+  if (bitmap.width === stored.width && bitmap.height === stored.height) return;
+  const seen = `${bitmap.width} × ${bitmap.height}`;
+  throw new Error(`The image arrived as ${seen} px instead of ${stored.width} × ${stored.height} px.`);
+}
+
+async function fetchBitmap(url: string): Promise<ImageBitmap> {
   const response = await fetch(url).catch(() => {
     throw unreachable();
   });
-  if (!response.ok) throw problemFrom(await response.json().catch(() => null), response);
-  const blob = await response.blob();
-  const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" });
-  if (bitmap.width !== size.width || bitmap.height !== size.height) {
-    const seen = `${bitmap.width} × ${bitmap.height}`;
-    throw new Error(`The image arrived as ${seen} px instead of ${size.width} × ${size.height} px.`);
+  if (!response.ok) {
+    const { problem } = problemFrom(await response.json().catch(() => null), response);
+    throw new RequestFailed({ ...problem, title: UNREADABLE.title });
   }
-  return bitmap;
+  const blob = await response.blob();
+  return createImageBitmap(blob, { colorSpaceConversion: "none" }).catch(() => {
+    throw new RequestFailed(UNREADABLE);
+  });
 }

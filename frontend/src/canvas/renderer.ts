@@ -2,8 +2,8 @@
  * Draws the image and its candidates on three canvases, at most once per display frame.
  *
  * What changed decides what is drawn: a hover touches only the highlights; a movement copies the candidates'
- * bitmap; a verdict redraws the bitmap along its line; the end of a movement draws the bitmap anew, a tile per
- * frame.
+ * bitmap; a verdict redraws the bitmap along its line; the end of a movement draws the bitmap anew, a few
+ * tiles per frame.
  */
 
 import { CandidateBitmap } from "./layers/candidate_bitmap";
@@ -73,6 +73,7 @@ export class Renderer {
   update(part: Partial<RendererState>, ...changes: Change[]): void {
     this.state = { ...this.state, ...part };
     for (const change of changes) this.changed.add(change);
+    if (this.complete) this.tellPainted();
     this.schedule();
   }
 
@@ -138,7 +139,7 @@ export class Renderer {
     const anew = changed.has("scene") || changed.has("candidates") || redrawn === "too many";
     if (anew) this.bitmap.start(scene, viewport, this.screen, this.ratio);
     const drawing = this.bitmap.drawing;
-    if (drawing) this.bitmap.drawTile(scene, look);
+    if (drawing) this.bitmap.drawTiles(scene, look);
     return moved || anew || drawing || redrawn === "redrawn";
   }
 

@@ -29,7 +29,6 @@ export const BENT_STYLE: LineStyle = { colour: "#c9b8ff", width: 1.4, dash: [14,
 
 export const CASING = { colour: "rgba(6, 10, 16, 0.62)", extra: 2.2 } as const;
 export const SELECTION = { halo: "#ffffff", casing: "rgba(6, 10, 16, 0.85)", width: 3.2 } as const;
-export const HOVER = { halo: "rgba(255, 255, 255, 0.75)" } as const;
 
 /** Drawing order: what matters most lies on top. */
 export const STYLE_ORDER = ["reject", "bent", "undecided", "ambiguous", "keep"] as const;

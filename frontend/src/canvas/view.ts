@@ -1,7 +1,7 @@
 /** One image on the screen: viewport, gestures and drawing together, without any framework. */
 
 import { follow } from "./follow";
-import type { Point } from "./geometry";
+import { boxCentre, type Point } from "./geometry";
 import { listenToGestures } from "./gestures";
 import { between, glide } from "./glide";
 import type { CandidateLook } from "./layers/candidate_layer";
@@ -15,6 +15,7 @@ import {
   type Size,
   sameViewport,
   toImage,
+  toScreen,
   type Viewport,
   zoomAt,
 } from "./viewport";
@@ -49,6 +50,7 @@ export class CanvasView {
   private readonly renderer: Renderer;
   private readonly stopGestures: () => void;
   private readonly resizes: ResizeObserver;
+  private readonly controller = new AbortController();
   private viewport: Viewport = { scale: 1, offsetX: 0, offsetY: 0 };
   private screen: Size = { width: 1, height: 1 };
   private imageSize: Size = { width: 1, height: 1 };
@@ -57,6 +59,7 @@ export class CanvasView {
   /** The whole image is shown, and stays so when the window changes. */
   private fitted = true;
   private hovered: number | null = null;
+  private selected: number | null = null;
   /** Where the view was before it zoomed for a tiny or huge candidate; it goes back there for the next one. */
   private beforeZoom: Viewport | null = null;
   /** Where a gliding view is going. */
@@ -80,11 +83,13 @@ export class CanvasView {
     this.resizes = new ResizeObserver(() => this.resize());
     this.resizes.observe(host);
     this.resize();
+    this.watchRatio();
   }
 
   dispose(): void {
     this.stopGestures();
     this.resizes.disconnect();
+    this.controller.abort();
     this.stopGlide();
     this.renderer.stop();
   }
@@ -94,6 +99,7 @@ export class CanvasView {
     this.imageSize = imageSize;
     this.scene = EMPTY_SCENE;
     this.hovered = null;
+    this.selected = null;
     this.lastClick = null;
     this.renderer.update(
       { image: null, imageSize, scene: EMPTY_SCENE, selected: null, hovered: null },
@@ -120,6 +126,7 @@ export class CanvasView {
   }
 
   setSelected(selected: number | null): void {
+    this.selected = selected;
     this.renderer.update({ selected }, "highlights");
   }
 
@@ -128,9 +135,9 @@ export class CanvasView {
     this.fitted = true;
   }
 
+  /** Zooms at the selected candidate, which is what one wants to see closer, else at the middle. */
   zoomStep(direction: 1 | -1): void {
-    const middle = { x: this.screen.width / 2, y: this.screen.height / 2 };
-    this.moveTo(zoomAt(this.viewport, middle, ZOOM_STEP ** direction, this.minScale()));
+    this.moveTo(zoomAt(this.viewport, this.zoomCentre(), ZOOM_STEP ** direction, this.minScale()));
   }
 
   /** Moves by shares of the screen. */
@@ -173,6 +180,15 @@ export class CanvasView {
     });
   }
 
+  private zoomCentre(): Point {
+    const { width, height } = this.screen;
+    const box = this.selected === null ? undefined : this.scene.boxes[this.selected];
+    const centre = box === undefined ? null : boxCentre(box);
+    const place = centre === null ? null : toScreen(this.viewport, centre.x, centre.y);
+    const seen = place !== null && place.x >= 0 && place.y >= 0 && place.x <= width && place.y <= height;
+    return seen ? place : { x: width / 2, y: height / 2 };
+  }
+
   private minScale(): number {
     return Math.min(1, fitScale(this.imageSize, this.screen)) / 2;
   }
@@ -208,6 +224,18 @@ export class CanvasView {
   private hits(position: Point, reach: number): Hit[] {
     const { x, y } = toImage(this.viewport, position.x, position.y);
     return this.scene.near(x, y, reach / this.viewport.scale, this.visible);
+  }
+
+  /** A window on another screen has other pixels in the same size. */
+  private watchRatio(): void {
+    const { signal } = this.controller;
+    const again = () => {
+      this.resize();
+      this.watchRatio();
+    };
+    window
+      .matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`)
+      .addEventListener("change", again, { once: true, signal });
   }
 
   private resize(): void {

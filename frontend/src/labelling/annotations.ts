@@ -1,7 +1,7 @@
-/** The candidates of an image with their points and decisions, fetched together and brought into one order. */
+/** The candidates of an image with their points, fetched together and brought into one order. */
 
-import { getDecisions, getPoints, getSegments } from "../api/endpoints";
-import type { ImageSegments, SegmentFacts, StoredDecision } from "../api/types";
+import { getPoints, getSegments } from "../api/endpoints";
+import type { ImageSegments, SegmentFacts } from "../api/types";
 import { decodePolylines, type Polylines } from "../canvas/decode";
 import { makeScene, type Scene } from "../canvas/scene";
 
@@ -11,8 +11,6 @@ export interface Annotations {
   /** In the order of the scene's polylines. */
   readonly candidates: readonly SegmentFacts[];
   readonly scene: Scene;
-  /** Oldest first. */
-  readonly decisions: readonly StoredDecision[];
 }
 
 /** A run that finishes between two requests changes the revision; then both are asked for again. */
@@ -20,18 +18,14 @@ const ATTEMPTS = 3;
 
 export async function loadAnnotations(imageId: number): Promise<Annotations> {
   for (let attempt = 1; ; attempt++) {
-    const [segments, bytes, { decisions }] = await Promise.all([
-      getSegments(imageId),
-      getPoints(imageId),
-      getDecisions(imageId),
-    ]);
+    const [segments, bytes] = await Promise.all([getSegments(imageId), getPoints(imageId)]);
     const polylines = decodePolylines(bytes);
-    if (polylines.revision === segments.revision) return joined(segments, polylines, decisions);
+    if (polylines.revision === segments.revision) return joined(segments, polylines);
     if (attempt === ATTEMPTS) throw new Error("The candidates keep changing; a run may be going on.");
   }
 }
 
-function joined(segments: ImageSegments, polylines: Polylines, decisions: StoredDecision[]): Annotations {
+function joined(segments: ImageSegments, polylines: Polylines): Annotations {
   const facts = new Map(segments.segments.map((segment) => [segment.id, segment]));
   const candidates = Array.from(polylines.ids, (id) => {
     const found = facts.get(id);
@@ -43,6 +37,5 @@ function joined(segments: ImageSegments, polylines: Polylines, decisions: Stored
     imageHeight: segments.height,
     candidates,
     scene: makeScene(polylines),
-    decisions,
   };
 }

@@ -11,6 +11,7 @@ export interface LabelActions {
   rejectUndecided(): void;
   toggleRejected(): void;
   finish(): void;
+  discard(): void;
   goToImage(direction: 1 | -1): void;
   leaveSelection(): void;
   toggleKeyList(): void;
@@ -86,7 +87,7 @@ export const COMMANDS: readonly Command[] = [
   {
     id: "leave",
     keys: ["Escape"],
-    label: "Deselect; once more: leave the image",
+    label: "Close; deselect; leave the image",
     group: "Move",
     run: (a) => a.leaveSelection(),
   },
@@ -119,6 +120,13 @@ export const COMMANDS: readonly Command[] = [
     group: "Image",
     onImageOnly: true,
     run: (a) => a.finish(),
+  },
+  {
+    id: "discard",
+    keys: ["D"],
+    label: "Discard the image, with a reason",
+    group: "Image",
+    run: (a) => a.discard(),
   },
   { id: "next-image", keys: ["N", "]"], label: "Next image", group: "Image", run: (a) => a.goToImage(1) },
   {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { DecisionKind, Verdict } from "../api/types";
-import { asRecorded, NO_HISTORY, pushed, rebuildHistory, redone, undone } from "./history";
+import { asRecorded, describeReplay, NO_HISTORY, pushed, rebuildHistory, redone, undone } from "./history";
 
 const group = (id: string) => ({ id, changes: [{ segmentId: 1, from: "undecided", to: "keep" }] }) as const;
 const ids = (groups: readonly { id: string }[]) => groups.map(({ id }) => id);
@@ -17,6 +17,18 @@ function recorded(kind: DecisionKind, groupId: string, segment: number, target: 
     verdict: verdict as Verdict,
   };
 }
+
+describe("what was undone is said", () => {
+  const change = (to: "keep" | "undecided") => ({ segmentId: 1, from: "reject" as const, to });
+
+  it("with its verdict and its extent", () => {
+    expect(describeReplay("undo", { id: "a", changes: [change("keep")] })).toBe("Undone: keep");
+    const changes = Array.from({ length: 1200 }, () => change("undecided"));
+    expect(describeReplay("redo", { id: "a", changes })).toBe(
+      "Redone: back to undecided of 1,200 candidates",
+    );
+  });
+});
 
 describe("history", () => {
   it("goes back and forth", () => {

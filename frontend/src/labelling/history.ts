@@ -98,3 +98,11 @@ export function asRecorded(
     return { ...decision, previous };
   });
 }
+
+/** "Undone: keep", "Undone: reject of 12 candidates", "Redone: back to undecided". */
+export function describeReplay(kind: "undo" | "redo", { changes }: ChangeGroup): string {
+  const verdict = changes[0]?.to ?? "undecided";
+  const what = verdict === "undecided" ? "back to undecided" : verdict;
+  const extent = changes.length > 1 ? ` of ${changes.length.toLocaleString("en")} candidates` : "";
+  return `${kind === "undo" ? "Undone" : "Redone"}: ${what}${extent}`;
+}

@@ -26,6 +26,7 @@ describe("key names", () => {
     ["Shift and a named key", press("Tab", { shiftKey: true }), "Shift+Tab"],
     ["Command on a Mac", press("z", { metaKey: true }), "Ctrl+Z"],
     ["AltGr on a German keyboard", press("[", { ctrlKey: true, altKey: true, altGraph: true }), "["],
+    ["an input method", press("Process", { code: "KeyK" }), "K"],
     ["a Cyrillic layout", press("л", { code: "KeyK" }), "K"],
   ])("of %s", (_, event, name) => {
     expect(keyName(event)).toBe(name);

@@ -29,6 +29,15 @@ beforeEach(() => {
 
 const verdicts = () => store.getState().verdicts.join(" ");
 
+describe("one's place", () => {
+  it("is kept where a click beside a line deselects", () => {
+    store.select(2);
+    store.select(null);
+    store.step(1);
+    expect(store.getState().selected).toBe(3);
+  });
+});
+
 describe("judging", () => {
   it("records the decision with its time and goes to the next undecided candidate", () => {
     store.selectFirstUndecided();

@@ -117,7 +117,7 @@ export class LabelStore {
   }
 
   /**
-   * Takes over what was decided elsewhere since, in another tab or by another person.
+   * Takes over the history from the server, with what was decided in another tab or by another person since.
    *
    * @param decisions All of the image as the server has them, oldest first.
    * @param unsent Those of here that aren't among them.
@@ -125,7 +125,7 @@ export class LabelStore {
   catchUp(decisions: readonly StoredDecision[], unsent: readonly NewDecision[]): CaughtUp {
     const caught = caughtUp(this.state, this.indexOf, decisions, unsent);
     const { changed, verdicts, history } = caught;
-    if (changed.length > 0) this.set({ verdicts, history, counts: countVerdicts(verdicts) });
+    this.set(changed.length > 0 ? { verdicts, history, counts: countVerdicts(verdicts) } : { history });
     return caught;
   }
 

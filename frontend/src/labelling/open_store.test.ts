@@ -27,7 +27,6 @@ function open(pending: NewDecision[]) {
       imageHeight: 100,
       candidates: [candidate(1, { verdict: "keep" }), candidate(2)],
       scene: EMPTY_SCENE,
-      decisions: [stored],
     },
     {
       pending,
@@ -42,22 +41,29 @@ function open(pending: NewDecision[]) {
 
 it("undoes decisions of an earlier visit", () => {
   const store = open([]);
+  expect(store.undo()).toBeNull();
+  store.catchUp([stored], []);
   expect(store.undo()?.id).toBe("g1");
   expect(store.getState().verdicts).toEqual(["undecided", "undecided"]);
 });
 
 it("shows decisions that are still in the outbox, and undoes them first", () => {
-  const store = open([
+  const pending: NewDecision[] = [
     { client_id: "mine", group_id: "g2", kind: "judge", segment_id: 2, verdict: "reject" },
-  ]);
+  ];
+  const store = open(pending);
   expect(store.getState().verdicts).toEqual(["keep", "reject"]);
+  store.catchUp([stored], pending);
   expect(store.undo()?.id).toBe("g2");
-  expect(store.getState().verdicts).toEqual(["keep", "undecided"]);
+  expect(store.undo()?.id).toBe("g1");
+  expect(store.getState().verdicts).toEqual(["undecided", "undecided"]);
 });
 
 it("counts a decision once whose acknowledgement got lost", () => {
-  const store = open([
+  const pending: NewDecision[] = [
     { client_id: "stored", group_id: "g1", kind: "judge", segment_id: 1, verdict: "keep" },
-  ]);
+  ];
+  const store = open(pending);
+  store.catchUp([stored], pending);
   expect(store.getState().history.done).toHaveLength(1);
 });

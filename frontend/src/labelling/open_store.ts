@@ -1,4 +1,4 @@
-/** A store for fetched annotations, with whatever is still in the outbox on top. */
+/** A store for fetched annotations, with whatever is still in the outbox on top; `catchUp` brings the history. */
 
 import type { NewDecision, Verdict } from "../api/types";
 import type { Annotations } from "./annotations";
@@ -19,17 +19,15 @@ interface Surroundings {
 }
 
 export function openLabelStore(annotations: Annotations, surroundings: Surroundings): LabelStore {
-  const { candidates, decisions, imageHeight } = annotations;
-  const stored = new Set(decisions.map((decision) => decision.client_id));
-  const unsent = surroundings.pending.filter((decision) => !stored.has(decision.client_id));
+  const { candidates, imageHeight } = annotations;
+  const { pending, order, shown, stopwatch, newId, record } = surroundings;
   const verdicts = new Map<number, Verdict>(candidates.map(({ id, verdict }) => [id, verdict]));
-  const recorded = asRecorded(unsent, (id) => verdicts.get(id) ?? "undecided");
-  for (const { segment_id, verdict } of unsent) verdicts.set(segment_id, verdict);
-  const { order, shown, stopwatch, newId, record } = surroundings;
+  const recorded = asRecorded(pending, (id) => verdicts.get(id) ?? "undecided");
+  for (const { segment_id, verdict } of pending) verdicts.set(segment_id, verdict);
   return new LabelStore({
     candidates,
     verdicts: candidates.map(({ id }) => verdicts.get(id) ?? "undecided"),
-    history: rebuildHistory([...decisions, ...recorded], (id) => verdicts.has(id)),
+    history: rebuildHistory(recorded, (id) => verdicts.has(id)),
     imageHeight,
     order,
     shown,

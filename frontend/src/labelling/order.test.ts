@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { nextInSequence, reviewSequence } from "./order";
+import { nextInSequence, readingRows, reviewSequence } from "./order";
 import { candidate } from "./test_candidates";
 
 describe("order of review", () => {
@@ -10,6 +10,15 @@ describe("order of review", () => {
       candidate(3, { box: [0, 40, 10, 50] }),
     ];
     expect(reviewSequence(candidates, "position", 600)).toEqual([2, 0, 1]);
+  });
+
+  it("doesn't tear a row apart where its middles differ by a little", () => {
+    const candidates = [
+      candidate(1, { box: [900, 100, 905, 500.4] }),
+      candidate(2, { box: [100, 100, 105, 499.6] }),
+      candidate(3, { box: [500, 100, 505, 500] }),
+    ];
+    expect(reviewSequence(candidates, "position", 600)).toEqual([1, 2, 0]);
   });
 
   it("puts the best score, or the longest, first", () => {
@@ -25,6 +34,27 @@ describe("order of review", () => {
   it("keeps the given order among equals", () => {
     const equal = [candidate(1), candidate(2), candidate(3)];
     expect(reviewSequence(equal, "length", 100)).toEqual([0, 1, 2]);
+  });
+});
+
+describe("rows of reading", () => {
+  it("are cut at the widest gap in their lower half", () => {
+    expect(readingRows([0, 30, 55, 60, 90, 95, 105], 100)).toEqual([0, 0, 0, 0, 1, 1, 1]);
+  });
+
+  it("are at most as tall as allowed", () => {
+    const heights = Array.from({ length: 500 }, (_, index) => 3.7 * index);
+    const rows = readingRows(heights, 100);
+    for (const row of new Set(rows)) {
+      const members = heights.filter((_, index) => rows[index] === row);
+      expect(Math.max(...members) - Math.min(...members)).toBeLessThanOrEqual(100);
+    }
+    expect(new Set(rows).size).toBeLessThan(40);
+  });
+
+  it("belong to each height, in whatever order they come", () => {
+    expect(readingRows([300, 0, 301, 1], 100)).toEqual([1, 0, 1, 0]);
+    expect(readingRows([], 100)).toEqual([]);
   });
 });
 

@@ -38,8 +38,7 @@ const KEYS: Readonly<Record<ReviewOrder, SortKeys>> = {
       middles[index] as number,
     ]);
   },
-  score: (candidates) =>
-    candidates.map(({ score, straight }) => [-(score ?? 0), straight === false ? 1 : 0]),
+  score: (candidates) => candidates.map(({ score, straight }) => [-(score ?? 0), straight === false ? 1 : 0]),
   length: (candidates) => candidates.map(({ length }) => [-length]),
 };
 

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { RequestFailed, unreachable } from "../api/problem";
 import type { DecisionsStored, NewDecision } from "../api/types";
-import { Outbox } from "./outbox";
+import { Outbox, type SaveState } from "./outbox";
 import { memoryStorage, type OutboxStorage } from "./outbox_storage";
 
 const ANSWER: DecisionsStored = {
@@ -31,6 +31,7 @@ interface Sent {
 function outboxTo(
   server: (imageId: number, ids: string[]) => void,
   storage: OutboxStorage = memoryStorage(),
+  patience: () => Promise<void> = () => new Promise(() => undefined),
 ) {
   const sent: Sent[] = [];
   let waits = 0;
@@ -39,7 +40,7 @@ function outboxTo(
     wait: async () => {
       waits++;
     },
-    patience: () => new Promise(() => undefined),
+    patience,
     send: async (imageId, decisions) => {
       const ids = decisions.map((entry) => entry.client_id);
       server(imageId, ids);
@@ -133,11 +134,57 @@ describe("outbox", () => {
 
   it("works without a storage", async () => {
     const broken = () => Promise.reject(new Error("storage is forbidden"));
-    const { outbox, sent } = outboxTo(() => undefined, { all: broken, add: broken, remove: broken });
+    const storage = { lasting: true, all: broken, add: broken, remove: broken };
+    const { outbox, sent } = outboxTo(() => undefined, storage);
     await outbox.restore();
     outbox.add(1, [decision("a")]);
     await outbox.flush();
     expect(sent).toHaveLength(1);
+  });
+
+  it("says what a reload would lose, and no longer than it would", async () => {
+    const broken = () => Promise.reject(new Error("storage is full"));
+    const states: SaveState[] = [];
+    let down = true;
+    const { outbox } = outboxTo(
+      () => {
+        if (!down) return;
+        down = false;
+        throw unreachable();
+      },
+      { ...memoryStorage(), lasting: true, add: broken },
+    );
+    outbox.subscribe(() => states.push(outbox.getState()));
+    outbox.add(1, [decision("a")]);
+    await Promise.resolve();
+    await settled(outbox);
+    expect(states).toContainEqual(expect.objectContaining({ kind: "offline", waiting: 1, kept: false }));
+    expect(outbox.atRisk).toBe(false);
+  });
+
+  it("sends although the storage never answers", async () => {
+    const silent = () => new Promise<never>(() => undefined);
+    const storage = { lasting: true, all: silent, add: silent, remove: silent };
+    const { outbox, sent } = outboxTo(
+      () => undefined,
+      storage,
+      () => Promise.resolve(),
+    );
+    await outbox.restore();
+    outbox.add(1, [decision("a")]);
+    await outbox.flush();
+    expect(sent).toEqual([{ imageId: 1, ids: ["a"] }]);
+  });
+
+  it("takes up what was left once the server says again which database it serves", async () => {
+    const left = memoryStorage();
+    await left.add([{ imageId: 3, decision: decision("old") }]);
+    let asked = 0;
+    const all = () => (++asked === 1 ? Promise.reject(unreachable()) : left.all());
+    const { outbox, sent } = outboxTo(() => undefined, { ...left, all });
+    await outbox.restore();
+    while (sent.length === 0) await Promise.resolve();
+    expect(sent).toEqual([{ imageId: 3, ids: ["old"] }]);
   });
 
   it("knows what is pending for an image", () => {

@@ -233,3 +233,25 @@ def test_table_of_a_spreadsheet(place, folder) -> None:
         "a",
         "a 64x48",
     )
+
+
+def test_a_file_that_vanishes_on_the_way_fails_alone(place, folder) -> None:
+    vanishing = folder / "images" / "gone.png"
+    vanishing.symlink_to(folder / "images.csv")
+
+    def progress(done: int, _total: int, _name: str) -> None:
+        if done == 1:
+            vanishing.unlink(missing_ok=True)
+
+    report = import_folder(place.database, place.blobs, folder, "Vanishing", place.now, progress=progress).report
+    assert [(failed.name, failed.error["code"]) for failed in report.failed] == [("images/gone.png", "invalid-file")]
+    assert report.added
+
+
+def test_a_long_folder_is_a_source_all_the_same(place, tmp_path: Path, png) -> None:
+    deep = tmp_path / "deep" / "/".join(["f" * 100] * 4)
+    deep.mkdir(parents=True)
+    (deep / "a.png").write_bytes(png(1))
+    report = import_folder(place.database, place.blobs, tmp_path / "deep", "Deep", place.now).report
+    assert not report.failed
+    assert len(report.added[0].source or "") == 300

@@ -15,6 +15,10 @@ import { boxesAlong, canvasBox, imageBox, tilesOf } from "./tiles";
 
 /** Share of the screen that the bitmap holds beyond each edge. */
 const MARGIN = 0.2;
+/** Time for drawing within one frame (ms), so that nothing stutters meanwhile. */
+const FRAME_BUDGET = 3;
+/** The same while no candidate is shown yet: then being there soon is what counts. */
+const FIRST_BUDGET = 40;
 
 interface Picture {
   readonly surface: Surface;
@@ -60,8 +64,14 @@ export class CandidateBitmap {
     return this.tiles.length > 0;
   }
 
-  /** Draws the next tile; after the last one the new picture is what is shown. */
-  drawTile(scene: Scene, look: CandidateLook): void {
+  /** Draws tiles for about as long as one frame has; after the last one the new picture is what is shown. */
+  drawTiles(scene: Scene, look: CandidateLook): void {
+    const end = performance.now() + (this.valid ? FRAME_BUDGET : FIRST_BUDGET);
+    do this.drawTile(scene, look);
+    while (this.drawing && performance.now() < end);
+  }
+
+  private drawTile(scene: Scene, look: CandidateLook): void {
     const tile = this.tiles.shift();
     if (tile === undefined) return;
     drawRegion(this.target, tile, scene, look);

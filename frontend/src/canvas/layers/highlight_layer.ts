@@ -2,7 +2,7 @@
 
 import { at } from "../geometry";
 import type { Scene } from "../scene";
-import { HOVER, lineStyle, SELECTION, styleName } from "../style";
+import { lineStyle, SELECTION, styleName } from "../style";
 import { toScreen, type Viewport } from "../viewport";
 import type { CandidateLook } from "./candidate_layer";
 import { tracePolyline } from "./surface";
@@ -28,7 +28,9 @@ function drawHovered(
 ): void {
   const path = pathOf(scene, viewport, index);
   const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
-  stroke(context, path, HOVER.halo, style.width + 5);
+  // Without knobs at its ends and thinner than the selection, and like that with a dark rim on bright pixels.
+  stroke(context, path, SELECTION.casing, style.width + 7.6);
+  stroke(context, path, SELECTION.halo, style.width + 5);
   stroke(context, path, SELECTION.casing, style.width + 2);
   stroke(context, path, style.colour, style.width + 0.6, style.dash);
 }

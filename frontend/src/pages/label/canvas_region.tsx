@@ -1,4 +1,4 @@
-import { type RefObject, useEffect, useRef, useState } from "react";
+import { type RefObject, useLayoutEffect, useRef, useState } from "react";
 import type { ImageDetail } from "../../api/types";
 import type { Point } from "../../canvas/geometry";
 import type { CandidateLook } from "../../canvas/layers/candidate_layer";
@@ -23,7 +23,10 @@ interface CanvasRegionProps {
   onScale: (scale: number) => void;
 }
 
-/** The image with its candidates. Everything that moves is drawn by the canvas engine, not by React. */
+/**
+ * The image with its candidates. Everything that moves is drawn by the canvas engine, not by React; what React
+ * changes reaches it before the next frame, so that image and panel never belong to different images.
+ */
 export function CanvasRegion(props: CanvasRegionProps) {
   const { image, bitmap, scene, store, viewRef, regionRef, onScale } = props;
   const { id, width, height } = image;
@@ -32,10 +35,11 @@ export function CanvasRegion(props: CanvasRegionProps) {
   const highlightCanvas = useRef<HTMLCanvasElement>(null);
   const storeRef = useRef(store);
   const [pointer, setPointer] = useState<PointerPlace | null>(null);
-  const [painted, setPainted] = useState(false);
+  const [paintedId, setPaintedId] = useState<number | null>(null);
+  const openedId = useRef(id);
   storeRef.current = store;
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     const host = regionRef.current;
     const canvases = [imageCanvas.current, candidateCanvas.current, highlightCanvas.current] as const;
     const [imageLayer, candidates, highlights] = canvases;
@@ -47,7 +51,7 @@ export function CanvasRegion(props: CanvasRegionProps) {
         hover: (index, screen) => setPointer(index === null || screen === null ? null : { index, screen }),
         click: (hits, again) => selectHit(storeRef.current, hits, again),
         viewChanged: ({ scale }) => onScale(scale),
-        painted: setPainted,
+        painted: (complete) => setPaintedId(complete ? openedId.current : null),
       },
     );
     viewRef.current = view;
@@ -58,15 +62,16 @@ export function CanvasRegion(props: CanvasRegionProps) {
   }, [regionRef, viewRef, onScale]);
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: another image of the same size is opened anew too
-  useEffect(() => {
+  useLayoutEffect(() => {
+    openedId.current = id;
     viewRef.current?.open({ width, height });
   }, [viewRef, id, width, height]);
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     viewRef.current?.setImage(bitmap);
   }, [viewRef, bitmap]);
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     const view = viewRef.current;
     if (view === null || store === null || scene === null) return;
     view.setScene(scene);
@@ -80,7 +85,7 @@ export function CanvasRegion(props: CanvasRegionProps) {
       role="application"
       aria-label={`Image ${image.name} with candidates. Tab goes through them, Escape twice leaves.`}
       aria-describedby="label-selection"
-      aria-busy={!painted}
+      aria-busy={paintedId !== id}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: the image is operated by keys, as an application region
       tabIndex={0}
     >

@@ -1,4 +1,6 @@
-import { useParams } from "react-router";
+import { Link, useParams } from "react-router";
+import { buttonClass } from "../../design/button";
+import { splitForEllipsis } from "../../design/format";
 import { PageFrame } from "../../design/page_frame";
 import { ErrorState, LoadingState } from "../../design/states";
 import { LabelWorkspace } from "./label_workspace";
@@ -18,17 +20,34 @@ export function LabelPage() {
       crumbs={[
         { label: "Datasets", to: "/" },
         { label: image?.dataset.name ?? slug, to: `/datasets/${slug}` },
-        { label: image?.name ?? "Image" },
+        { label: image === undefined ? "Image" : shortened(image.name) },
       ]}
       actions={<SaveIndicator />}
     >
       {image !== undefined ? (
         <LabelWorkspace slug={slug} session={session} image={image} />
       ) : error ? (
-        <ErrorState error={error} onRetry={retry} />
+        <ErrorState
+          error={error}
+          onRetry={retry}
+          actions={
+            <Link className={buttonClass()} to={`/datasets/${slug}`}>
+              To the dataset
+            </Link>
+          }
+        />
       ) : (
         <LoadingState label="Loading the image" />
       )}
     </PageFrame>
   );
+}
+
+const LONGEST_BEGINNING = 40;
+const END = 20;
+
+/** A long name without its middle: names of one folder differ at their end. */
+function shortened(name: string): string {
+  const [beginning, end] = splitForEllipsis(name, END);
+  return beginning.length <= LONGEST_BEGINNING ? name : `${beginning.slice(0, LONGEST_BEGINNING)}…${end}`;
 }

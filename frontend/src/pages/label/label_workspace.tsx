@@ -1,6 +1,5 @@
 import { useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useRef, useState } from "react";
-import { useSearchParams } from "react-router";
 import type { ImageDetail } from "../../api/types";
 import type { CanvasView } from "../../canvas/view";
 import { ErrorState } from "../../design/states";
@@ -10,13 +9,17 @@ import { outbox } from "../../labelling/outbox_start";
 import { Announcer } from "./announcer";
 import { CanvasRegion } from "./canvas_region";
 import { KeyList } from "./key_list";
-import { LeftHint, NoCandidates, ReviewBanner } from "./notices";
+import { NoCandidates } from "./no_candidates";
+import { LeftHint, LoadingNotice, ReviewBanner } from "./notices";
 import { SidePanel } from "./side_panel";
 import { StatusStrip } from "./status_strip";
+import { useHistory } from "./use_history";
 import { useImageBitmap } from "./use_image_bitmap";
 import { useFocusBackAfterClick, useKeys } from "./use_keys";
-import { REJECTED_TOAST, useLabelActions } from "./use_label_actions";
+import { HISTORY_TOAST, REJECTED_TOAST, useLabelActions } from "./use_label_actions";
 import { annotationsKey, type LabelSession } from "./use_label_session";
+import { useOverlays } from "./use_overlays";
+import { useFirstSelection, useSegmentAddress } from "./use_segment_address";
 import { useLabelState, useSaveState } from "./use_store";
 
 interface LabelWorkspaceProps {
@@ -31,25 +34,36 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
   const regionRef = useRef<HTMLElement | null>(null);
   const panelRef = useRef<HTMLElement | null>(null);
   const [scale, setScale] = useState(1);
-  const [keyList, setKeyList] = useState(false);
-  const [leftHint, setLeftHint] = useState(false);
+  const { shown, control } = useOverlays(image.id);
   const { bitmap, error: bitmapError, retry } = useImageBitmap(image.id, image);
   const leaveImage = useCallback(() => panelRef.current?.focus(), []);
-  const toggleKeyList = useCallback(() => setKeyList((shown) => !shown), []);
-  const actions = useLabelActions({ slug, image, store, viewRef, leaveImage, toggleKeyList, setLeftHint });
+  const whenHistoryKnown = useHistory(image.id, store);
+  const actions = useLabelActions({
+    slug,
+    image,
+    store,
+    viewRef,
+    leaveImage,
+    overlays: control,
+    whenHistoryKnown,
+  });
   useKeys(actions, regionRef);
   useFocusBackAfterClick(regionRef);
   useFirstSelection(store);
+  useSegmentAddress(store);
   useRefusedDecisions(image.id);
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: each image starts with the focus on it
   useEffect(() => {
     regionRef.current?.focus({ preventScroll: true });
-    setLeftHint(false);
-    return () => dismissToast(REJECTED_TOAST);
+    return () => {
+      dismissToast(REJECTED_TOAST);
+      dismissToast(HISTORY_TOAST);
+    };
   }, [image.id]);
 
   const scene = annotations?.scene ?? null;
+  const problem = bitmapError ?? session.error;
   const empty = store !== null && store.getState().candidates.length === 0;
   return (
     <div className="label-page">
@@ -68,30 +82,26 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
         />
         {store ? <Announcer store={store} /> : null}
         <div className="label-notices">
-          {bitmapError || session.error ? (
+          {problem ? (
             <div className="notice-card">
-              <ErrorState
-                error={bitmapError ?? session.error}
-                onRetry={bitmapError ? retry : session.retry}
-              />
+              <ErrorState error={problem} onRetry={bitmapError ? retry : session.retry} />
             </div>
-          ) : empty ? (
-            <div className="notice-card">
-              <NoCandidates slug={slug} image={image} />
-            </div>
+          ) : bitmap === null || store === null ? (
+            <LoadingNotice />
           ) : null}
+          {empty && !problem ? <NoCandidates slug={slug} image={image} /> : null}
           {store ? (
             <Banners
               store={store}
               image={image}
-              leftHint={leftHint}
+              leftHint={shown.leftHint}
               onReopen={() => actions.setReview("open")}
               onReject={actions.rejectUndecided}
-              onClose={() => setLeftHint(false)}
+              onClose={() => control.setLeftHint(false)}
             />
           ) : null}
         </div>
-        {keyList ? <KeyList onClose={toggleKeyList} /> : null}
+        {shown.keyList ? <KeyList onClose={control.toggleKeyList} /> : null}
         <StatusStrip scale={scale} actions={actions} />
       </div>
       {store && scene ? (
@@ -102,6 +112,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           scene={scene}
           bitmap={bitmap}
           actions={actions}
+          discarding={shown.discarding && image.status !== "discarded"}
           panelRef={panelRef}
         />
       ) : (
@@ -127,18 +138,6 @@ function Banners({ store, image, leftHint, onReopen, onReject, onClose }: Banner
     return <LeftHint undecided={counts.undecided} onReject={onReject} onClose={onClose} />;
   }
   return null;
-}
-
-/** Starts with the candidate that the address names, else with the first undecided one. */
-function useFirstSelection(store: LabelStore | null): void {
-  const [parameters] = useSearchParams();
-  const wanted = parameters.get("segment");
-  useEffect(() => {
-    if (store === null || store.getState().selected !== null) return;
-    const index = wanted === null ? null : store.indexOfSegment(Number(wanted));
-    if (index !== null) store.select(index, { follow: true });
-    else store.selectFirstUndecided();
-  }, [store, wanted]);
 }
 
 /** A decision that the server refuses for good is said, and the server's state shown. */

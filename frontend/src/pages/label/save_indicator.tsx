@@ -1,3 +1,4 @@
+import { useRef } from "react";
 import { formatQuantity } from "../../design/format";
 import { Icon, type IconName } from "../../design/icons";
 import type { SaveState } from "../../labelling/outbox";
@@ -14,9 +15,11 @@ export function SaveIndicator() {
       <span>{text}</span>
     </>
   );
-  const trouble = state.kind === "offline" || state.kind === "refused";
+  // Each verdict is saved: only what goes wrong, and its end, is worth saying aloud.
+  const aloud = useRef(false);
+  if (state.kind !== "saved") aloud.current = state.kind !== "saving";
   return (
-    <>
+    <span className="save-indicator-region" aria-live={aloud.current ? "polite" : "off"}>
       {state.kind === "offline" ? (
         <button
           type="button"
@@ -31,11 +34,7 @@ export function SaveIndicator() {
           {content}
         </span>
       )}
-      {/* Each verdict is saved: only what goes wrong, and its end, is worth saying aloud. */}
-      <span className="visually-hidden" role="status">
-        {trouble ? text : state.kind === "saved" ? "All saved" : ""}
-      </span>
-    </>
+    </span>
   );
 }
 
@@ -48,7 +47,9 @@ function describe(state: SaveState): { icon: IconName; text: string; title: stri
     case "offline":
       return {
         icon: "offline",
-        text: state.kept ? `Offline, ${state.waiting} kept here` : `Offline, ${state.waiting} only in this tab`,
+        text: state.kept
+          ? `Offline, ${state.waiting} kept here`
+          : `Offline, ${state.waiting} only in this tab`,
         title: `${state.problem.message} ${
           state.kept
             ? "The decisions are kept in this browser and sent again by themselves."

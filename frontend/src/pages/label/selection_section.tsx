@@ -1,8 +1,11 @@
 import type { SegmentFacts, Verdict } from "../../api/types";
 import type { Scene } from "../../canvas/scene";
+import { IconButton } from "../../design/button";
 import { formatCount } from "../../design/format";
+import { toast } from "../../design/toast";
 import { isBent, type LabelState, selectedPlace, verdictAt } from "../../labelling/label_state";
 import { Magnifier } from "./magnifier";
+import { addressOf } from "./use_segment_address";
 import { VerdictButtons } from "./verdict_buttons";
 
 interface SelectionSectionProps {
@@ -21,10 +24,19 @@ export function SelectionSection({ state, scene, bitmap, onJudge }: SelectionSec
     <section className="panel-section" aria-label="Selected candidate">
       <div className="panel-heading">
         <h2>Candidate</h2>
-        <span className="muted numeric">
+        <span className="panel-heading__end muted numeric">
           {selected === null
             ? "none selected"
             : `${formatCount(selectedPlace(state) ?? 0)} of ${formatCount(state.candidates.length)}`}
+          {candidate === undefined ? null : (
+            <IconButton
+              small
+              icon="copy"
+              label="Copy link"
+              side="end"
+              onClick={() => copyLink(candidate.id)}
+            />
+          )}
         </span>
       </div>
       <VerdictButtons current={verdict} onJudge={onJudge} />
@@ -50,7 +62,7 @@ function Facts({ candidate }: { candidate: SegmentFacts }) {
     ["Length", `${candidate.length.toFixed(1)} px`],
     ["Points", String(candidate.n_points)],
     ["Score", number(candidate.score), "Evidence for an edge, 0 to 1"],
-    ["Residual", withUnit(candidate.residual), "Deviation from the fitted arc"],
+    ["Residual", withUnit(candidate.residual), "RMS deviation from straight after undistortion"],
     ["Straightness", number(candidate.straightness), "Probability of being straight under the lens"],
     ["Origin", candidate.origin],
   ];
@@ -69,6 +81,15 @@ function Facts({ candidate }: { candidate: SegmentFacts }) {
       </dl>
     </>
   );
+}
+
+async function copyLink(segmentId: number): Promise<void> {
+  const copied = await navigator.clipboard?.writeText(addressOf(segmentId)).then(
+    () => true,
+    () => false,
+  );
+  const message = copied ? "Link to this candidate copied" : "This browser doesn't let the page copy";
+  toast({ key: "link", message, tone: copied ? "success" : "danger" });
 }
 
 function number(value: number | null): string {

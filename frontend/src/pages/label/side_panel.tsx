@@ -4,7 +4,7 @@ import type { Scene } from "../../canvas/scene";
 import { Button, IconButton } from "../../design/button";
 import { formatCount } from "../../design/format";
 import { Keys } from "../../design/kbd";
-import type { LabelActions } from "../../labelling/commands";
+import { Segmented } from "../../design/segmented";
 import type { Shown } from "../../labelling/label_state";
 import type { LabelStore } from "../../labelling/label_store";
 import { REVIEW_ORDER_NAMES, REVIEW_ORDERS, type ReviewOrder } from "../../labelling/order";
@@ -12,6 +12,7 @@ import { readPreferences, writePreferences } from "../../labelling/preferences";
 import { ImageSection } from "./image_section";
 import { ProgressSection } from "./progress_section";
 import { SelectionSection } from "./selection_section";
+import type { PageActions } from "./use_label_actions";
 import { useLabelState } from "./use_store";
 
 interface SidePanelProps {
@@ -20,11 +21,21 @@ interface SidePanelProps {
   store: LabelStore;
   scene: Scene;
   bitmap: ImageBitmap | null;
-  actions: LabelActions;
+  actions: PageActions;
+  discarding: boolean;
   panelRef: RefObject<HTMLElement | null>;
 }
 
-export function SidePanel({ slug, image, store, scene, bitmap, actions, panelRef }: SidePanelProps) {
+export function SidePanel({
+  slug,
+  image,
+  store,
+  scene,
+  bitmap,
+  actions,
+  discarding,
+  panelRef,
+}: SidePanelProps) {
   const state = useLabelState(store);
 
   function changeShown(shown: Shown): void {
@@ -42,23 +53,29 @@ export function SidePanel({ slug, image, store, scene, bitmap, actions, panelRef
       <div className="label-panel__scroll">
         <ProgressSection state={state} onShown={changeShown} />
         <SelectionSection state={state} scene={scene} bitmap={bitmap} onJudge={actions.judge} />
-        <section className="panel-section" aria-label="Order of review">
-          <label className="field">
-            <span className="field__label">Order of review</span>
-            <select
-              className="input"
-              value={state.order}
-              onChange={(event) => changeOrder(event.target.value as ReviewOrder)}
-            >
-              {REVIEW_ORDERS.map((order) => (
-                <option key={order} value={order}>
-                  {REVIEW_ORDER_NAMES[order]}
-                </option>
-              ))}
-            </select>
-          </label>
+        <section className="panel-section panel-section--row" aria-label="Order of review">
+          <span className="field__label" aria-hidden="true">
+            Order
+          </span>
+          <Segmented
+            label="Order of review"
+            name="review-order"
+            value={state.order}
+            choices={REVIEW_ORDERS.map((order) => ({
+              value: order,
+              label: REVIEW_ORDER_NAMES[order].short,
+              title: REVIEW_ORDER_NAMES[order].whole,
+            }))}
+            onChange={changeOrder}
+          />
         </section>
-        <ImageSection slug={slug} image={image} />
+        <ImageSection
+          slug={slug}
+          image={image}
+          actions={actions}
+          discarding={discarding}
+          ready={bitmap !== null}
+        />
       </div>
       <footer className="label-panel__footer">
         <IconButton

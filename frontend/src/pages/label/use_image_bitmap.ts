@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { displayUrl } from "../../api/endpoints";
-import { ImageLoader } from "../../canvas/image_loader";
+import { ImageLoader, requireStoredSize } from "../../canvas/image_loader";
 import type { Size } from "../../canvas/viewport";
 
 export const imageLoader = new ImageLoader();
@@ -27,10 +27,13 @@ export function useImageBitmap(imageId: number, { width, height }: Size): Bitmap
     const finish = (result: Omit<LoadedBitmap, "imageId">) => {
       if (wanted) setLoaded({ imageId, ...result });
     };
-    imageLoader.load(displayUrl(imageId), { width, height }).then(
-      (bitmap) => finish({ bitmap, error: null }),
-      (error: unknown) => finish({ bitmap: null, error }),
-    );
+    imageLoader
+      .load(displayUrl(imageId))
+      .then((bitmap) => {
+        requireStoredSize(bitmap, { width, height });
+        finish({ bitmap, error: null });
+      })
+      .catch((error: unknown) => finish({ bitmap: null, error }));
     return () => {
       wanted = false;
     };

@@ -2,7 +2,7 @@ import { type RefObject, useEffect } from "react";
 import type { LabelActions } from "../../labelling/commands";
 import { commandFor } from "../../labelling/keymap";
 
-const TYPING = "input, textarea, select, [contenteditable]";
+const TYPING = 'input:not([type="radio"], [type="checkbox"]), textarea, select, [contenteditable]';
 
 /** Keys act wherever nothing is being typed; Tab, Enter and arrows only while the image has the focus. */
 export function useKeys(actions: LabelActions, regionRef: RefObject<HTMLElement | null>): void {
@@ -27,7 +27,9 @@ export function useFocusBackAfterClick(regionRef: RefObject<HTMLElement | null>)
     function onClick(event: MouseEvent): void {
       // A click made by Enter or Space has no detail: the focus then stays where the keyboard is.
       if (event.detail === 0 || !(event.target instanceof Element)) return;
-      if (!event.target.closest(TYPING)) regionRef.current?.focus({ preventScroll: true });
+      // What was clicked may have opened a field that has the focus now.
+      if (event.target.closest(TYPING) || document.activeElement?.matches(TYPING)) return;
+      regionRef.current?.focus({ preventScroll: true });
     }
     window.addEventListener("click", onClick);
     return () => window.removeEventListener("click", onClick);

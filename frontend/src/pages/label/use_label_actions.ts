@@ -1,20 +1,23 @@
 import { useQueryClient } from "@tanstack/react-query";
 import { type RefObject, useMemo } from "react";
 import { useNavigate } from "react-router";
-import { listImages, putReview } from "../../api/endpoints";
+import { putReview } from "../../api/endpoints";
 import { asProblem } from "../../api/problem";
 import { imageQuery } from "../../api/queries";
 import type { ImageDetail, ReviewStatus } from "../../api/types";
 import type { CanvasView } from "../../canvas/view";
 import { formatQuantity } from "../../design/format";
-import { toast } from "../../design/toast";
+import { dismissToast, toast } from "../../design/toast";
 import type { LabelActions } from "../../labelling/commands";
+import { describeReplay } from "../../labelling/history";
 import type { LabelStore } from "../../labelling/label_store";
 import { outbox } from "../../labelling/outbox_start";
 import { readPreferences, writePreferences } from "../../labelling/preferences";
 
-/** Has to go with its image: undo never reaches into another one. */
+/** Have to go with their image: undo never reaches into another one. */
 export const REJECTED_TOAST = "reject-undecided";
+export const HISTORY_TOAST = "history";
+const HISTORY_TOAST_DURATION = 2_500;
 
 interface ActionParts {
   slug: string;
@@ -23,31 +26,41 @@ interface ActionParts {
   viewRef: RefObject<CanvasView | null>;
   /** Moves the focus from the image to the panel. */
   leaveImage: () => void;
+  overlays: Overlays;
+  whenHistoryKnown: (act: () => void) => void;
+}
+
+/** What may lie beside or above the image. */
+interface Overlays {
   toggleKeyList: () => void;
   setLeftHint: (visible: boolean) => void;
+  setDiscarding: (visible: boolean) => void;
+  /** Closes whatever is open; false where nothing was. */
+  close: () => boolean;
 }
 
 export interface PageActions extends LabelActions {
-  setReview: (status: ReviewStatus) => Promise<boolean>;
+  setReview: (status: ReviewStatus, reason?: string) => Promise<boolean>;
 }
 
 /** What keys and buttons do, on this page's store, view and router. */
 export function useLabelActions(parts: ActionParts): PageActions {
-  const { slug, image, store, viewRef, leaveImage, toggleKeyList, setLeftHint } = parts;
+  const { slug, image, store, viewRef, leaveImage, overlays, whenHistoryKnown } = parts;
   const navigate = useNavigate();
   const queryClient = useQueryClient();
   return useMemo(() => {
     const goTo = (id: number) => navigate(`/datasets/${slug}/images/${id}`);
 
-    async function setReview(status: ReviewStatus): Promise<boolean> {
+    async function setReview(status: ReviewStatus, reason: string | null = null): Promise<boolean> {
       if (image === undefined) return false;
       try {
         await outbox.flush();
-        const answer = await putReview(image.id, status);
+        const answer = await putReview(image.id, status, reason);
         queryClient.setQueryData(
           imageQuery(image.id).queryKey,
-          (known) => known && { ...known, status: answer.status },
+          (known) => known && { ...known, status: answer.status, reason },
         );
+        overlays.setDiscarding(false);
         return true;
       } catch (error) {
         const problem = asProblem(error);
@@ -58,26 +71,45 @@ export function useLabelActions(parts: ActionParts): PageActions {
 
     async function goToNextOpen(): Promise<void> {
       if (image === undefined) return;
-      const open = await listImages(slug, { status: "open" }, null, 1).catch(() => null);
-      const next = image.next_open_id ?? open?.items.find((other) => other.id !== image.id)?.id;
-      if (next !== undefined && next !== image.id && open?.total !== 0) goTo(next);
+      // What was fetched ahead may name an image that has been finished since.
+      const fresh = await queryClient
+        .fetchQuery({ ...imageQuery(image.id), staleTime: 0 })
+        .catch(() => image);
+      const next = fresh.next_open_id;
+      if (next !== null && next !== image.id) goTo(next);
       else navigate(`/datasets/${slug}/finished`);
     }
 
+    let finishing = false;
+
     async function finish(): Promise<void> {
-      if (image === undefined || store === null) return;
+      if (image === undefined || store === null || finishing) return;
       if (image.status !== "discarded" && store.selectFirstUndecided()) {
-        setLeftHint(true);
+        overlays.setLeftHint(true);
         return;
       }
+      finishing = true;
       if (image.status !== "open" || (await setReview("done"))) await goToNextOpen();
+      finishing = false;
+    }
+
+    /** What was done shows on the image; what is taken back may lie anywhere on it. */
+    function replay(kind: "undo" | "redo"): void {
+      if (store === null) return;
+      const group = kind === "undo" ? store.undo() : store.redo();
+      toast({
+        key: HISTORY_TOAST,
+        message: group === null ? `Nothing to ${kind}` : describeReplay(kind, group),
+        duration: HISTORY_TOAST_DURATION,
+      });
+      dismissToast(REJECTED_TOAST);
     }
 
     const latestGroup = () => store?.getState().history.done.at(-1)?.id;
 
     function rejectUndecided(): void {
       const count = store?.rejectUndecided() ?? 0;
-      setLeftHint(false);
+      overlays.setLeftHint(false);
       if (count === 0) return;
       const rejection = latestGroup();
       toast({
@@ -102,7 +134,7 @@ export function useLabelActions(parts: ActionParts): PageActions {
     }
 
     function leaveSelection(): void {
-      setLeftHint(false);
+      if (overlays.close()) return;
       if (store !== null && store.getState().selected !== null) store.select(null);
       else leaveImage();
     }
@@ -110,18 +142,19 @@ export function useLabelActions(parts: ActionParts): PageActions {
     return {
       step: (direction) => store?.step(direction),
       judge: (verdict) => store?.judgeSelected(verdict),
-      undo: () => store?.undo(),
-      redo: () => store?.redo(),
+      undo: () => whenHistoryKnown(() => replay("undo")),
+      redo: () => whenHistoryKnown(() => replay("redo")),
       rejectUndecided,
       toggleRejected,
       finish,
       goToImage,
       leaveSelection,
-      toggleKeyList,
+      discard: () => overlays.setDiscarding(image?.status !== "discarded"),
+      toggleKeyList: overlays.toggleKeyList,
       fit: () => viewRef.current?.fit(),
       zoom: (direction) => viewRef.current?.zoomStep(direction),
       pan: (dx, dy) => viewRef.current?.panStep(dx, dy),
       setReview,
     };
-  }, [slug, image, store, viewRef, leaveImage, toggleKeyList, setLeftHint, navigate, queryClient]);
+  }, [slug, image, store, viewRef, leaveImage, overlays, whenHistoryKnown, navigate, queryClient]);
 }

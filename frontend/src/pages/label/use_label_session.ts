@@ -1,7 +1,7 @@
 /** The data of the image under review, from the server and the outbox, and that of its neighbours. */
 
 import { type QueryClient, queryOptions, useQuery, useQueryClient } from "@tanstack/react-query";
-import { useEffect, useMemo } from "react";
+import { useEffect, useMemo, useRef } from "react";
 import { displayUrl } from "../../api/endpoints";
 import { imageQuery, keys } from "../../api/queries";
 import type { ImageDetail } from "../../api/types";
@@ -46,18 +46,26 @@ export function useLabelSession(slug: string, imageId: number): LabelSession {
   });
   const annotations = useQuery(annotationsQuery(imageId));
   const data = annotations.data;
-  const store = useMemo(() => (data === undefined ? null : openStore(data)), [data]);
 
+  // Together with the rest, not after it: whatever goes wrong is said by who shows it.
   useEffect(() => {
-    if (image.data !== undefined) prefetchNeighbours(queryClient, image.data);
-  }, [queryClient, image.data]);
+    imageLoader.load(displayUrl(imageId)).catch(() => undefined);
+  }, [imageId]);
 
+  const store = useMemo(() => (data === undefined ? null : storeOf(data)), [data]);
+  const shownImage = useRef(image.data);
+  shownImage.current = image.data;
+
+  usePrefetch(queryClient, image.data, data !== undefined);
   useReloadAfterRun(queryClient, image.data);
   useStoredStatus(queryClient);
 
   useEffect(
     () => () => {
-      forgetLater(queryClient, slug, imageId);
+      forgetLater(queryClient, slug, imageId).then(() => {
+        const shown = shownImage.current;
+        if (shown !== undefined && neighboursOf(shown).includes(imageId)) prefetch(queryClient, imageId);
+      });
     },
     [queryClient, slug, imageId],
   );
@@ -72,6 +80,15 @@ export function useLabelSession(slug: string, imageId: number): LabelSession {
       annotations.refetch();
     },
   };
+}
+
+/** Going back to an image that is still in memory finds it as it was left, selection included. */
+const stores = new WeakMap<Annotations, LabelStore>();
+
+function storeOf(annotations: Annotations): LabelStore {
+  const store = stores.get(annotations) ?? openStore(annotations);
+  stores.set(annotations, store);
+  return store;
 }
 
 function openStore(annotations: Annotations): LabelStore {
@@ -90,30 +107,54 @@ function isUnderWay(image: ImageDetail | undefined): boolean {
   return image?.prelabel === "queued" || image?.prelabel === "running";
 }
 
-function prefetchNeighbours(queryClient: QueryClient, image: ImageDetail): void {
-  const neighbours = new Set([image.next_open_id, image.next_id, image.previous_id]);
-  neighbours.delete(image.id);
-  for (const id of neighbours) {
-    if (id === null) continue;
-    prefetch(queryClient, id).catch(() => undefined);
-  }
+/** Images that one may go to next, the likeliest first. */
+function neighboursOf({ id, next_open_id, next_id, previous_id }: ImageDetail): number[] {
+  const ids = new Set([next_open_id, next_id, previous_id]);
+  return [...ids].filter((other) => other !== null && other !== id) as number[];
+}
+
+/** What comes next is fetched once this image is there: it must not have to share the server. */
+function usePrefetch(queryClient: QueryClient, image: ImageDetail | undefined, annotated: boolean): void {
+  const latest = useRef(image);
+  latest.current = image;
+  const neighbours = image === undefined || !annotated ? "" : neighboursOf(image).join();
+  useEffect(() => {
+    let wanted = true;
+    const run = async () => {
+      const shown = latest.current;
+      if (shown === undefined) return;
+      await imageLoader.load(displayUrl(shown.id)).catch(() => undefined);
+      for (const id of neighbours.split(",")) {
+        if (wanted && id !== "") await prefetch(queryClient, Number(id));
+      }
+    };
+    run();
+    return () => {
+      wanted = false;
+    };
+  }, [queryClient, neighbours]);
 }
 
 async function prefetch(queryClient: QueryClient, id: number): Promise<void> {
-  queryClient.prefetchQuery(annotationsQuery(id));
-  await imageLoader.load(displayUrl(id), await queryClient.fetchQuery(imageQuery(id)));
+  const image = await queryClient.fetchQuery(imageQuery(id)).catch(() => null);
+  if (image === null) return;
+  await Promise.all([
+    queryClient.prefetchQuery(annotationsQuery(id)),
+    imageLoader.prefetch(displayUrl(id), image),
+  ]);
 }
 
-/** A run that finishes while the image is open brings candidates. */
+/** A run that finishes, seen or unseen, while the image is open brings other candidates. */
 function useReloadAfterRun(queryClient: QueryClient, image: ImageDetail | undefined): void {
-  const underWay = isUnderWay(image);
-  const id = image?.id;
+  const known = useRef<{ id: number; prelabel: string; run: number | undefined } | null>(null);
   useEffect(() => {
-    if (!underWay || id === undefined) return;
-    return () => {
-      queryClient.invalidateQueries({ queryKey: annotationsKey(id) });
-    };
-  }, [queryClient, underWay, id]);
+    if (image === undefined) return;
+    const before = known.current;
+    known.current = { id: image.id, prelabel: image.prelabel, run: image.run?.id };
+    if (before?.id !== image.id || isUnderWay(image)) return;
+    if (before.prelabel === image.prelabel && before.run === image.run?.id) return;
+    queryClient.invalidateQueries({ queryKey: annotationsKey(image.id) });
+  }, [queryClient, image]);
 }
 
 /** A verdict taken back reopens an image; the server says so in its answer. */
