@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
-from pathlib import Path
 
 from app.commands.serve import import_and_prelabel
 from app.commands.synthesize import synthesize_folder
@@ -20,13 +20,9 @@ def prepare_demo(settings: Settings, *, progress: Callable[[int, int], None] | N
     Returns:
         The dataset's slug.
     """
-    streets = settings.data_dir / "streets"
-    done = streets / "images.csv"  # written last
-    if not done.is_file():
-        synthesize_folder(IMAGES, streets, seed=SEED, progress=progress)
-    return import_and_prelabel(settings, _images_of(streets), NAME)
-
-
-def _images_of(streets: Path) -> Path:
-    """Return the folder without the labels: in the demo a person makes them."""
-    return streets / "images"
+    images = settings.data_dir / "streets" / "images"
+    table = images / "images.csv"  # last, so that a drawing that was stopped begins anew
+    if not table.is_file():
+        synthesize_folder(IMAGES, images.parent, seed=SEED, progress=progress)
+        shutil.copy(images.parent / "images.csv", table)
+    return import_and_prelabel(settings, images, NAME)

@@ -37,8 +37,8 @@ export function makeScene(polylines: Polylines): Scene {
   const levels = new Map<number, SimplifiedPolylines>();
 
   function atScale(scale: number): SimplifiedPolylines {
-    // Levels are powers of two; the level's largest scale decides, so that no zoom is drawn too coarsely.
-    const level = Math.ceil(Math.log2(Math.max(scale, 1e-3)));
+    // Two levels per octave; the level's largest scale decides, so that no zoom is drawn too coarsely.
+    const level = Math.ceil(2 * Math.log2(Math.max(scale, 1e-3))) / 2;
     let simplified = levels.get(level);
     if (simplified === undefined) {
       simplified = simplify(coordinates, offsets, tolerances, SCREEN_TOLERANCE / 2 ** level);

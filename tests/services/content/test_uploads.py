@@ -2,7 +2,9 @@ from __future__ import annotations
 
 import io
 import json
+import threading
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -10,7 +12,7 @@ from app.db.models import Camera, Event
 from app.errors import InvalidInput
 from app.formats.label_npy import write_label_npy
 from app.services.exporting import write_export
-from app.services.import_reports import ImportLimits
+from app.services.import_reports import ImportLimits, ImportReport
 from app.services.uploads import UploadedFile, import_upload
 from app.vision.segments import Segments
 
@@ -164,3 +166,17 @@ def test_an_export_comes_back_as_it_was(place, png) -> None:
     with place.database.read() as session:
         references = [row.reference for row in session.query(Camera).filter_by(name="left")]
     assert references[0] == references[1]
+
+
+def test_of_many_that_upload_the_same_at_once_one_adds_it_and_the_others_find_it(place, png) -> None:
+    importer = place.importer(place.dataset())
+    content = png(1)
+    together = threading.Barrier(6)
+
+    def upload(_number: int) -> ImportReport:
+        together.wait()
+        return import_upload(importer, [UploadedFile("a.png", io.BytesIO(content))])
+
+    with ThreadPoolExecutor(6) as threads:
+        reports = list(threads.map(upload, range(6)))
+    assert sorted((len(report.added), len(report.existing)) for report in reports) == [(0, 1)] * 5 + [(1, 0)]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from datetime import timedelta
 
 import numpy as np
@@ -48,6 +50,21 @@ def test_parameters_that_cannot_be_are_refused(small_bench, parameters) -> None:
     bench = small_bench
     with pytest.raises(InvalidInput):
         bench.start(**parameters)
+
+
+def test_of_many_that_start_at_once_one_has_the_images(bench) -> None:
+    together = threading.Barrier(6)
+
+    def start(_number: int) -> bool:
+        together.wait()
+        try:
+            bench.start()
+        except Conflict:
+            return False
+        return True
+
+    with ThreadPoolExecutor(6) as threads:
+        assert sum(threads.map(start, range(6))) == 1
 
 
 def test_a_dataset_without_images_has_nothing_to_run_on(small_bench) -> None:
