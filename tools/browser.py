@@ -20,6 +20,14 @@ from build_frontend import node_environment, run_npm  # noqa: E402
 FOLDER = ROOT / ".tools" / "browser"
 STARTER = FOLDER / "chromium-with-libraries"
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+FONTS_CONF = """<?xml version="1.0"?>
+<!DOCTYPE fontconfig SYSTEM "fonts.dtd">
+<fontconfig>
+  <dir>{folder}/fonts/fonts</dir>
+  <dir>/usr/share/fonts</dir>
+  <cachedir>{folder}/fonts/cache</cachedir>
+</fontconfig>
+"""
 UNPACK = "import chromium from '@sparticuz/chromium'; console.log(await chromium.executablePath());"
 
 
@@ -45,10 +53,12 @@ def install_browser() -> Path:
     unpack = [str(shutil.which("node", path=environment["PATH"])), "--input-type=module", "--eval", UNPACK]
     done = subprocess.run(unpack, cwd=FOLDER, env=environment, check=True, capture_output=True, text=True)
     chromium = Path(done.stdout.strip())
+    # the package's own looks for fonts elsewhere, and a browser without any font crashes
+    (FOLDER / "fonts" / "fonts.conf").write_text(FONTS_CONF.format(folder=FOLDER))
     STARTER.write_text(
         "#!/bin/sh\n"
         f'export LD_LIBRARY_PATH="{FOLDER}/al2023/lib:{FOLDER}${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}"\n'
-        f'export FONTCONFIG_PATH="${{FONTCONFIG_PATH:-{FOLDER}/fonts}}"\n'
+        f'export FONTCONFIG_FILE="{FOLDER}/fonts/fonts.conf"\n'
         f'exec "{chromium}" "$@"\n'
     )
     STARTER.chmod(0o755)

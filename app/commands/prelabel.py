@@ -12,6 +12,7 @@ from app.commands.detection_cache import FOLDER, DetectionCache
 from app.commands.prelabel_images import FoundImage, find_prelabel_images
 from app.commands.whole_files import json_bytes, write_whole
 from app.errors import ClearLinesError, InvalidInput
+from app.formats.files import read_file
 from app.formats.json_writer import write_json
 from app.formats.label_npy import write_label_npy
 from app.formats.labelled import LabelledSegments
@@ -139,7 +140,7 @@ def prelabel_files(
 def detect_file(work: _Work) -> DetectionResult:
     """Detect the candidates of one image file; runs in a worker."""
     image = work.image
-    content = image.path.read_bytes()
+    content = read_file(image.path)
     return detect_task(content, image.name, work.parameters, alone=False, discard=False, max_pixels=MAX_PIXELS)
 
 
@@ -148,7 +149,7 @@ def _detections(
 ) -> Iterator[_Detected | dict[str, ClearLinesError]]:
     """Yield what is finished already, then the rest as it arrives; failures as name and reason."""
     missing: list[_Work] = []
-    keys = {image.name: cache.key(image.path.read_bytes()) for image in images}
+    keys = {image.name: cache.key(read_file(image.path)) for image in images}
     for image in images:
         if cache.is_whole(keys[image.name]):
             yield _Detected(image, keys[image.name], cache.milliseconds(keys[image.name]) or 0.0)
