@@ -185,7 +185,7 @@ def switch(page: Page) -> list[float]:
     """Return the times from key to the next image with its candidates, ms."""
     times: list[float] = []
     for step in range(SWITCHES):
-        page.wait_for_timeout(1_500)
+        page.wait_for_timeout(3_000)  # nobody is done with an image sooner
         page.keyboard.press("np"[step % 2])
         times.append(wait_for_probe(page, "switched"))
     return times

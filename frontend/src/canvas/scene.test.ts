@@ -39,8 +39,9 @@ describe("pointing at candidates", () => {
 });
 
 describe("levels of detail", () => {
-  it("are made once per power of two", () => {
-    expect(scene.atScale(1.2)).toBe(scene.atScale(1.9));
+  it("are made twice per power of two", () => {
+    expect(scene.atScale(1.5)).toBe(scene.atScale(1.9));
+    expect(scene.atScale(1.3)).not.toBe(scene.atScale(1.5));
     expect(scene.atScale(1.9)).not.toBe(scene.atScale(2.1));
   });
 

@@ -17,8 +17,6 @@ import { boxesAlong, canvasBox, imageBox, tilesOf } from "./tiles";
 const MARGIN = 0.2;
 /** Time for drawing within one frame (ms), so that nothing stutters meanwhile. */
 const FRAME_BUDGET = 3;
-/** The same while no candidate is shown yet: then being there soon is what counts. */
-const FIRST_BUDGET = 40;
 
 interface Picture {
   readonly surface: Surface;
@@ -52,7 +50,8 @@ export class CandidateBitmap {
     clearSurface(surface);
     const whole = { minX: 0, minY: 0, maxX: surface.canvas.width, maxY: surface.canvas.height };
     const seen = scene.places.touching(imageBox(whole, viewport, ratio, margin)).length;
-    this.tiles = tilesOf(surface.canvas.width, surface.canvas.height, seen);
+    // A line that tiles share is drawn in each: the first drawing is faster without them.
+    this.tiles = this.valid ? tilesOf(surface.canvas.width, surface.canvas.height, seen) : [whole];
   }
 
   /** Leaves a drawing that a movement has made useless. */
@@ -66,7 +65,7 @@ export class CandidateBitmap {
 
   /** Draws tiles for about as long as one frame has; after the last one the new picture is what is shown. */
   drawTiles(scene: Scene, look: CandidateLook): void {
-    const end = performance.now() + (this.valid ? FRAME_BUDGET : FIRST_BUDGET);
+    const end = performance.now() + FRAME_BUDGET;
     do this.drawTile(scene, look);
     while (this.drawing && performance.now() < end);
   }

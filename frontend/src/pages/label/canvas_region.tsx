@@ -61,7 +61,6 @@ export function CanvasRegion(props: CanvasRegionProps) {
     };
   }, [regionRef, viewRef, onScale]);
 
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another image of the same size is opened anew too
   useLayoutEffect(() => {
     openedId.current = id;
     viewRef.current?.open({ width, height });
