@@ -2,6 +2,7 @@
 FROM python:3.12-slim AS build
 WORKDIR /source
 COPY . .
+# slim has no C compiler: the build fetches the wheel ziglang, which stays in this stage
 RUN pip install --no-cache-dir build \
  && python -m build --wheel --outdir /wheels
 

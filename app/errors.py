@@ -7,10 +7,13 @@
             InvalidFile             a label, prediction or archive file                 422
         TooLarge                    over a limit that a setting names                   413
         NotFound                    no such dataset, image, run...                      404
+            NoHistory               a segment that nobody can tell how it was found     404
         Conflict                    the state of things doesn't allow it now            409
             UndecidedLeft           candidates wait for a verdict                       409
         Forbidden                   not allowed for whom, or from where, it was asked   403
         Unavailable                 can't be done now; trying again may help            503
+        Cancelled                   called off by whoever asked for it                  409
+        BrokenInstallation          a part of ClearLines itself is missing              500
 
 An error says what is wrong and, where known, where, what was expected and what would help. The web layer turns
 it into a problem document (RFC 9457) with its status; the command line prints the same words.
@@ -127,6 +130,12 @@ class NotFound(ClearLinesError):
     code = "not-found"
 
 
+class NoHistory(NotFound):
+    """The pipeline as it is here didn't find the segment, so how it was found can't be told."""
+
+    code = "no-history"
+
+
 class Conflict(ClearLinesError):
     """The state of things doesn't allow it now."""
 
@@ -152,3 +161,16 @@ class Unavailable(ClearLinesError):
 
     status = 503
     code = "unavailable"
+
+
+class Cancelled(ClearLinesError):
+    """Work was called off, before its end, by whoever asked for it."""
+
+    status = 409
+    code = "cancelled"
+
+
+class BrokenInstallation(ClearLinesError):
+    """A part of ClearLines itself is missing or can't be loaded."""
+
+    code = "broken-installation"

@@ -1,6 +1,6 @@
-"""Run every program in benchmarks/, one after the other: ``tools/bench.py [--json]``.
+"""Run every program in benchmarks/, one after the other: ``tools/bench.py [--json] [--york DIR] [--kitti DIR]``.
 
-With ``--json`` the last line is one object with every program's figures.
+Every program is given all arguments. With ``--json`` the last line is one object with every program's figures.
 """
 
 from __future__ import annotations

@@ -17,10 +17,11 @@ from app.api.deps import Server
 from app.api.guard import Guard
 from app.api.head import HeadAsGet
 from app.api.problems import answers, install_problem_handlers
-from app.api.routers import cameras, datasets, exports, images, labelling, runs, system, uploads
+from app.api.routers import cameras, datasets, exports, images, labelling, runs, segments, system, uploads
 from app.clock import utc_now
 from app.db.session import open_database, upgrade
 from app.jobs.dispatcher import Dispatcher
+from app.jobs.histories import Histories
 from app.jobs.housekeeping import Housekeeper
 from app.settings import Settings
 from app.storage import BlobStore
@@ -43,7 +44,8 @@ def create_application(settings: Settings) -> FastAPI:
         upgrade(database)
         blobs = BlobStore(settings.blob_dir)
         dispatcher = Dispatcher(database, blobs, settings, utc_now)
-        application.state.server = Server(settings, database, blobs, dispatcher, utc_now)
+        histories = Histories(blobs, settings.max_image_pixels)
+        application.state.server = Server(settings, database, blobs, dispatcher, histories, utc_now)
         housekeeper = Housekeeper(database, blobs, grace=settings.grace, clock=utc_now)
         dispatcher.start()
         housekeeper.start()
@@ -52,6 +54,7 @@ def create_application(settings: Settings) -> FastAPI:
         finally:
             housekeeper.stop()
             dispatcher.stop()
+            histories.stop()
             database.close()
 
     application = FastAPI(
@@ -65,7 +68,7 @@ def create_application(settings: Settings) -> FastAPI:
         responses=answers(403, 422),
     )
     install_problem_handlers(application)
-    for router in (system, datasets, uploads, images, labelling, runs, cameras, exports):
+    for router in (system, datasets, uploads, images, labelling, segments, runs, cameras, exports):
         application.include_router(router.router, prefix="/api")
     application.include_router(_unknown_addresses(list(application.routes)))
     if (STATIC / "index.html").is_file():

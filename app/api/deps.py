@@ -12,6 +12,7 @@ from sqlalchemy.orm import Session
 
 from app.db.session import Database
 from app.jobs.dispatcher import Dispatcher
+from app.jobs.histories import Histories
 from app.settings import Settings
 from app.storage import BlobStore
 
@@ -24,6 +25,7 @@ class Server:
     database: Database
     blobs: BlobStore
     dispatcher: Dispatcher
+    histories: Histories
     clock: Callable[[], datetime]
 
 

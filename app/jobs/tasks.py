@@ -6,6 +6,7 @@ A worker needs no database, no settings and no web code, so it may run on anothe
 
 from __future__ import annotations
 
+import hashlib
 import logging
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -21,8 +22,9 @@ from app.formats.npz import read_npz, write_npz
 from app.images.decode import decode_gray
 from app.vision.distortion import DistortionEstimate, estimate_distortion
 from app.vision.division import Division
+from app.vision.history import SegmentHistory, detect_with_history
 from app.vision.parameters import DetectionParameters
-from app.vision.prelabel import detect_for_prelabel
+from app.vision.prelabel import detect_for_prelabel, long_enough_for_lens
 from app.vision.sampson import sampson_residuals
 from app.vision.segments import Segments
 from app.vision.straightness import judge_straightness
@@ -60,6 +62,19 @@ class DetectionResult:
     lens_segments: bytes | None
     judgement: Judgement | None = None
     distortion: dict[str, Any] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class ImageHistory:
+    """How the candidates of one image came about.
+
+    Attributes:
+        by_points: Histories by the ``fingerprint`` of the candidate's points.
+        typical: Mean of each feature of the score over the candidates, by name.
+    """
+
+    by_points: dict[bytes, SegmentHistory]
+    typical: dict[str, float]
 
 
 def detect_task(
@@ -117,6 +132,37 @@ def judge_task(candidates: Segments, distortion: Mapping[str, Any]) -> Judgement
     """
     with _errors_that_travel("candidates"):
         return _judge(candidates, DistortionEstimate.from_dict(distortion))
+
+
+def history_task(content: bytes, name: str, parameters: Mapping[str, Any], *, max_pixels: int) -> ImageHistory:
+    """Detect the candidates of one image as ``detect_task`` does, and tell how each came about.
+
+    Args:
+        content: The image file.
+        name: Of the image, for messages.
+        parameters: Fields of ``DetectionParameters``.
+        max_pixels: Greatest number of pixels that is decoded.
+
+    Raises:
+        ClearLinesError: Always one of the tree, with the reason.
+    """
+    with _errors_that_travel(name):
+        chosen = DetectionParameters.from_dict(parameters)
+        # as `detect_for_prelabel`: what is merged and trimmed depends on the shortest segment asked for
+        gray = decode_gray(content, max_pixels=max_pixels)
+        segments, histories = detect_with_history(gray, long_enough_for_lens(chosen))
+        candidates = [
+            (fingerprint(segments[index].astype("<f4").tobytes()), histories[index])
+            for index in np.flatnonzero(segments.extents() >= chosen.min_length).tolist()
+        ]
+        names = candidates[0][1].features if candidates else {}
+        typical = {name: float(np.mean([history.features[name] for _, history in candidates])) for name in names}
+        return ImageHistory(dict(candidates), typical)
+
+
+def fingerprint(points: bytes) -> bytes:
+    """Return what tells a polyline from all others, from its points as they are stored: float32, little endian."""
+    return hashlib.sha256(points).digest()
 
 
 def _judge(candidates: Segments, estimate: DistortionEstimate) -> Judgement:

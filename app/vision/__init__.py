@@ -5,6 +5,7 @@ Coordinates are px, x right, y down, with the pixel's centre at integers.
 
 from app.vision.brown import Brown
 from app.vision.distortion import DistortionEstimate, TrustedSegments, estimate_distortion
+from app.vision.history import SegmentHistory, detect_with_history
 from app.vision.parameters import DetectionParameters
 from app.vision.pipeline import detect
 from app.vision.prelabel import (
@@ -27,11 +28,13 @@ __all__ = [
     "PrelabelResult",
     "PrelabelledCamera",
     "PrelabelledImage",
+    "SegmentHistory",
     "Segments",
     "TrustedSegments",
     "assemble",
     "detect",
     "detect_for_prelabel",
+    "detect_with_history",
     "estimate_distortion",
     "judge_straightness",
     "prelabel",

@@ -1,84 +1,91 @@
-"""Directional Canny: local maxima of the gradient, once for edges along x and once for edges along y.
+"""Directional Canny with sub-pixel positions: maxima of the gradient, once for edges along x, once for those along y.
 
-Canny, IEEE TPAMI 8(6), 1986. Splitting the maxima by direction makes every edge of a pass single-valued (one point
-per column, or per row), so that chaining meets no branches.
+Canny, IEEE TPAMI 8(6), 1986. Splitting the maxima by direction makes every edge of a pass single-valued (one point per
+column, or per row), so that chaining meets no branches; edges up to 5 degrees beyond the diagonal belong to both
+passes. A parabola through three norms gives the sub-pixel position (Devernay, INRIA RR-2724, 1995; along the axis as in
+Grompone von Gioi & Randall, IPOL 7, 2017). Edges are found in the equalised image but measured in the plain one:
+equalisation moves and roughens them.
 """
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-# edges up to 5 degrees beyond the diagonal belong to both passes, or noise would chop those near 45 degrees
-_SECTOR = float(np.tan(np.radians(50.0)))
+from app.vision.equalisation import Equalisation
+from app.vision.native.library import kernels
+from app.vision.native.records import POINT, Scene, address
+from app.vision.watch import Watch
+
+POSITION_SIGMA = 0.6
+"""px, blur of the image that edges are measured in."""
 
 
 @dataclass(frozen=True, eq=False)
-class Gradient:
-    """Gradient of an image: 3x3 Sobel without normalisation.
+class EdgeMap:
+    """Image, gradient and edge points of both passes; index 0 is the pass of edges along x, 1 that along y.
 
     Attributes:
-        x: float32 ``(H, W)``, derivative to the right; a step of h grey levels gives 4 h before blurring.
-        y: float32 ``(H, W)``, derivative downwards.
-        norm: float32 ``(H, W)``, Euclidean norm.
+        gray: uint8 ``(H, W)``.
+        gradients: int16 ``(2, H, W)``, derivatives of the equalised image to the right and downwards (3x3 Sobel without
+            normalisation after the blur), in steps of 1 / 16 grey level.
+        maps: int32 ``(2, H, W)``, row of the point found at each pixel, -1 where there is none.
+        points: Two arrays of `POINT`: ``along``, the pixel coordinate along the axis of the pass; ``across``, the
+            sub-pixel one across it; ``slope``, d across / d along of the edge; ``norm`` of the equalised gradient,
+            negative where the image gets darker with rising ``across``.
     """
 
-    x: NDArray[np.float32]
-    y: NDArray[np.float32]
-    norm: NDArray[np.float32]
+    gray: NDArray[np.uint8]
+    gradients: NDArray[np.int16]
+    maps: NDArray[np.int32]
+    points: tuple[NDArray[Any], NDArray[Any]]
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The view that kernels take; this object must outlive it."""
+        height, width = self.gray.shape
+        pointers = ctypes.c_void_p * 2
+        return Scene(
+            width,
+            height,
+            address(self.gray),
+            *(address(gradient) for gradient in self.gradients),
+            pointers(*(address(each) for each in self.maps)),
+            pointers(*(address(each) for each in self.points)),
+        )
 
 
-@dataclass(frozen=True, eq=False)
-class EdgePixels:
-    """Maxima of one pass, in raster order.
-
-    Attributes:
-        axis: Coordinate the edges run along: 0 for x (horizontal pass), 1 for y (vertical pass).
-        rows: int64 ``(n,)``.
-        columns: int64 ``(n,)``.
-    """
-
-    axis: int
-    rows: NDArray[np.int64]
-    columns: NDArray[np.int64]
-
-
-def gradient(image: NDArray[np.uint8] | NDArray[np.float32], sigma: float) -> Gradient:
-    """Blur with a Gaussian of ``sigma`` px and differentiate; the border is mirrored."""
-    smooth = cv2.GaussianBlur(image.astype(np.float32, copy=False), (0, 0), sigma)
-    x = cv2.Sobel(smooth, cv2.CV_32F, 1, 0, ksize=3)
-    y = cv2.Sobel(smooth, cv2.CV_32F, 0, 1, ksize=3)
-    return Gradient(_array(x), _array(y), _array(cv2.magnitude(x, y)))
-
-
-def edge_pixels(field: Gradient, threshold: float, axis: int) -> EdgePixels:
-    """Find the maxima of the gradient norm across one axis.
-
-    A pixel is an edge pixel when its norm is above ``threshold``, above that of its neighbour before and not below
-    that of its neighbour after it (across the edge), and its gradient points across the axis within 50 degrees.
-    Of a tie the first pixel is taken; the parabola of the sub-pixel step then gives the same position from either.
-    Pixels on the image border are left out.
+def edge_map(gray: NDArray[np.uint8], tables: Equalisation, sigma: float, weakest: float, watch: Watch) -> EdgeMap:
+    """Find the edge points of both passes, in strips so that no float image of full size is held.
 
     Args:
-        field: Gradient of the image.
-        threshold: Norm to be exceeded.
-        axis: 0 for edges along x, 1 for edges along y.
+        gray: uint8 ``(H, W)``, contiguous, both 3 or more.
+        tables: Of the same image.
+        sigma: Blur of the equalised image in px.
+        weakest: Gradient norm that an edge point exceeds.
+        watch: Over this part of the detection.
+
+    Raises:
+        Cancelled: If that is wished.
     """
-    norm = field.norm
-    if min(norm.shape) < 3:
-        none = np.zeros(0, np.int64)
-        return EdgePixels(axis, none, none)
-    inner = norm[1:-1, 1:-1]
-    before, after = (norm[:-2, 1:-1], norm[2:, 1:-1]) if axis == 0 else (norm[1:-1, :-2], norm[1:-1, 2:])
-    across, along = (field.y, field.x) if axis == 0 else (field.x, field.y)
-    found = (inner > threshold) & (inner > before) & (inner >= after)
-    rows, columns = (index + 1 for index in np.nonzero(found))
-    inside = np.abs(across[rows, columns]) * _SECTOR >= np.abs(along[rows, columns])
-    return EdgePixels(axis, rows[inside], columns[inside])
-
-
-def _array(value: object) -> NDArray[np.float32]:
-    return np.asarray(value, dtype=np.float32)
+    height, width = gray.shape
+    gradients, maps = np.empty((2, height, width), np.int16), np.empty((2, height, width), np.int32)
+    # of two neighbours across a pass one at most is a maximum; pages that stay untouched cost nothing
+    room = max((height + 1) // 2 * width, (width + 1) // 2 * height)
+    points, counts = np.empty((2, room), POINT), np.zeros(2, np.int64)
+    rows, columns, _ = tables.tables.shape
+    watch.call(
+        kernels().cl_edge_points,
+        *(address(gray), width, height),
+        *(address(tables.tables), columns, rows, address(tables.left), address(tables.rightward)),
+        *(sigma, POSITION_SIGMA, weakest),
+        *(address(gradients[0]), address(gradients[1]), address(maps)),
+        *(address(points), room, address(counts)),
+    )
+    along_x, along_y = (each[:count] for each, count in zip(points, counts.tolist(), strict=True))
+    return EdgeMap(gray, gradients, maps, (along_x, along_y))

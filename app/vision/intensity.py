@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from app.errors import InvalidImage
 
 _LOW_PERCENTILE, _HIGH_PERCENTILE = 0.5, 99.5
+_BLOCK_PIXELS = 1 << 20
 
 
 def to_eight_bit(image: NDArray[Any]) -> NDArray[np.uint8]:
@@ -38,8 +40,21 @@ def to_eight_bit(image: NDArray[Any]) -> NDArray[np.uint8]:
         row, column = np.argwhere(~np.isfinite(image))[0][:2]
         raise InvalidImage("a pixel is not finite", where=f"x {column}, y {row}", expected="no NaN, no infinity")
     low, high = _range(image)
+    result = np.zeros(image.shape, np.uint8)
     if high <= low:
-        return np.zeros(image.shape, np.uint8)
+        return result
+    for rows in _blocks(image):
+        result[rows] = _stretch(image[rows], low, high)
+    return result
+
+
+def _blocks(image: NDArray[Any]) -> Iterator[slice]:
+    """Rows that are worked on at once: what is computed meanwhile takes 8 bytes and more a pixel."""
+    step = max(1, _BLOCK_PIXELS * len(image) // image.size)
+    return (slice(row, row + step) for row in range(0, len(image), step))
+
+
+def _stretch(image: NDArray[Any], low: float, high: float) -> NDArray[np.uint8]:
     if image.dtype == np.uint16:
         table = (np.arange(65536) - low) * (255.0 / (high - low))
         return np.rint(np.clip(table, 0, 255)).astype(np.uint8)[image]
@@ -51,7 +66,10 @@ def to_eight_bit(image: NDArray[Any]) -> NDArray[np.uint8]:
 def _range(image: NDArray[Any]) -> tuple[float, float]:
     if image.dtype == np.uint16:
         # a histogram takes 65536 counts where sorting would take a copy of the image
-        counts = np.cumsum(np.bincount(image.ravel(), minlength=65536))
+        histogram = np.zeros(65536, np.int64)
+        for rows in _blocks(image):
+            histogram += np.bincount(image[rows].ravel(), minlength=65536)
+        counts = np.cumsum(histogram)
         ranks = np.array([_LOW_PERCENTILE, _HIGH_PERCENTILE]) / 100 * (counts[-1] - 1)
         below = np.searchsorted(counts, np.floor(ranks), side="right")
         above = np.searchsorted(counts, np.ceil(ranks), side="right")

@@ -1,10 +1,9 @@
 """How far off a fitted lens may be, in px over the frame, and whether that is good enough to be used.
 
 A covariance of parameters helps nobody; what counts is how far points of the corrected image may lie from where they
-should, after the homography that lines can't determine. Two numbers say so. `scan_spread` is the spread of all
-plausible lenses of one parameter, so that a second, far answer that fits nearly as well shows; `pred` adds the
-curvature of the likelihood at the answer in all parameters. Both count evidence by structures, of which each may bend
-by its own (`app.vision.lens_evidence`): one kerb or bonnet found as five pieces stays one witness.
+should, after the homography that lines can't determine. `pred` is the error to be expected, over all that
+`app.vision.lens_hierarchy` holds possible near the answer, over further answers of the scan that fit nearly as well,
+and with what no lens of the family can follow. `scan_spread` is the spread of all plausible lenses of one parameter.
 """
 
 from __future__ import annotations
@@ -20,13 +19,16 @@ from app.vision.brown import Brown
 from app.vision.division import Division
 from app.vision.field import field_error, observable_part
 from app.vision.frame import center_of, frame_grid, half_diagonal
-from app.vision.lens_evidence import TEMPERATURE, structure_sd, sum_structures
-from app.vision.lens_fit import RUNGS, LensFit, prior_sd
+from app.vision.lens_evidence import SCAN
+from app.vision.lens_fit import LensFit
 
 Array = NDArray[np.float64]
 
-MODEL_ERROR = 0.0015
-"""Share of the half diagonal that a real lens is away from the model family."""
+MODEL_ERROR, MODEL_NOISE = 0.0025, 4
+"""Share of the half diagonal that a lens is away from the model family where segments' cubic amplitudes are as large as
+those of photos usually are, and the power by which it falls with them: what the family can't follow shows there."""
+ELSEWHERE = 0.06
+"""Distance in k1 from the scan's best answer beyond which another one isn't part of the same."""
 MOST_PREDICTED = 0.42
 """Largest `pred` to accept, as a share of the size of the correction: what isn't 2.4 times its own predicted error
 could well be worse than no correction."""
@@ -45,6 +47,11 @@ class LensUncertainty(NamedTuple):
     scan_spread: float
     correction: float
 
+    @property
+    def pred_of_identity(self) -> float:
+        """Predicted field error, px RMS, of making no correction: what holds where a lens is refused."""
+        return math.hypot(self.pred, self.correction)
+
 
 def lens_uncertainty(fit: LensFit, width: int, height: int) -> LensUncertainty:
     """Return the uncertainty of a fit of `app.vision.lens_fit`.
@@ -55,30 +62,36 @@ def lens_uncertainty(fit: LensFit, width: int, height: int) -> LensUncertainty:
         height: Image height in px.
     """
     sensitivity = field_sensitivity(fit.parameters, width, height)
-    chance = float(np.sqrt(max(np.trace(covariance(fit) @ sensitivity), 0.0)))
-    spread = fit.posterior.sd * float(np.sqrt(sensitivity[0, 0]))
-    # where more than k1 was released, lenses of k1 alone have been outvoted and their spread says nothing
-    known = max(chance, spread) if fit.free == RUNGS[0] else chance
-    pred = math.hypot(known, MODEL_ERROR * half_diagonal(width, height))
+    away = SCAN - SCAN[np.argmax(fit.scan.probability)]
+    elsewhere = np.where(np.abs(away) > ELSEWHERE, away, 0.0)
+    # where nothing was refined, the scan's own spread has all of it already
+    other = float(fit.scan.probability @ elsewhere**2) * sensitivity[0, 0] if fit.refined else 0.0
+    model = MODEL_ERROR * half_diagonal(width, height) * fit.mixture.noise[1] ** MODEL_NOISE
+    weight, means, covariances = fit.posterior
+    pred = 0.0
+    for share, mean, covariance in zip(weight, means, covariances, strict=True):
+        apart = mean - fit.parameters
+        pred += share * math.sqrt(
+            expected_length(covariance @ sensitivity) ** 2 + apart @ sensitivity @ apart + other + model**2
+        )
     lens = Division.from_parameters(width, height, fit.parameters)
     correction = field_error(Brown.identity(width, height), lens, width, height).rms
-    return LensUncertainty(pred, spread, correction)
+    return LensUncertainty(float(pred), fit.scan.sd * math.sqrt(sensitivity[0, 0]), correction)
 
 
-def covariance(fit: LensFit) -> Array:
-    """Return the covariance of the five parameters, released or not, float64 ``(5, 5)``.
+def expected_length(form: Array) -> float:
+    """Return the mean of the square root of a quadratic form of normal variables.
 
-    A structure's own k1, of variance v, is eliminated: it leaves I - I e e' I / (1 / v + e' I e) of the information I
-    (Woodbury), e being the direction of k1.
+    The form is taken for a multiple of a chi-square law of the same mean and variance (Satterthwaite 1946).
+
+    Args:
+        form: Covariance times the form's matrix, float64 ``(P, P)``.
     """
-    weight = fit.responsibility / fit.mixture.sigma**2 / TEMPERATURE
-    slopes = np.stack([fit.bend.quadratic_slope, fit.bend.cubic_slope])
-    each = np.einsum("s,dsi,dsj->sij", weight, slopes, slopes)
-    found, own = sum_structures(each, fit.structure)
-    along = own[:, :, 0]
-    shared = along[:, :, None] * along[:, None] / (structure_sd(found) ** -2 + along[:, 0])[:, None, None]
-    information = np.diag(prior_sd(fit.parameters) ** -2) + (own - shared).sum(0)
-    return np.linalg.inv(information)
+    mean = float(np.trace(form))
+    freedom = mean**2 / max(float(np.trace(form @ form)), 1e-300)
+    if mean <= 0:
+        return 0.0
+    return math.sqrt(2 * mean / freedom) * math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2))
 
 
 def field_sensitivity(parameters: Array, width: int, height: int) -> Array:

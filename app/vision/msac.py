@@ -19,7 +19,7 @@ from app.vision import brown
 from app.vision.bins import BinnedSegments
 from app.vision.brown import Brown
 from app.vision.frame import center_of, half_diagonal
-from app.vision.sampson import Bend, bend
+from app.vision.sampson import Bend, amplitudes_over, bend
 
 Array = NDArray[np.float64]
 
@@ -65,14 +65,13 @@ def msac_brown(binned: BinnedSegments, width: int, height: int, *, seed: int = 0
     scored = binned
     if len(binned) > MOST_SCORED:
         scored = binned.select(np.sort(generator.choice(len(binned), MOST_SCORED, replace=False)))
-    unbent = bend(scored, BROWN, np.zeros(7), slopes=range(7))
-    best, best_cost = np.zeros(7), mean_cost(squared_errors(scored, unbent))
-    for _ in range(hypotheses):
+    unbent = bend(scored, BROWN, np.zeros(7), slopes=(0, 1))
+    trials = np.zeros((hypotheses + 1, 7))
+    for trial in trials[1:]:
         sample = generator.choice(len(scored), min(2, len(scored)), replace=False)
-        trial = _step(np.zeros(7), (0, 1), unbent, scored.sigma, sample)
-        cost = mean_cost(squared_errors(scored, bend(scored, BROWN, trial)))
-        if cost < best_cost:
-            best, best_cost = trial, cost
+        trial[:] = _step(np.zeros(7), (0, 1), unbent, scored.sigma, sample)
+    errors = (amplitudes_over(scored, BROWN, trials)[0] / scored.sigma) ** 2
+    best = trials[np.argmin(np.minimum(errors, THRESHOLD**2).mean(axis=1))]
     parameters = _polish(binned, best, width, height)
     errors = squared_errors(binned, bend(binned, BROWN, parameters))
     return MsacResult(_lens(parameters, width, height), mean_cost(errors), errors < THRESHOLD**2, hypotheses)
@@ -90,13 +89,15 @@ def mean_cost(errors: Array) -> float:
 
 def _polish(binned: BinnedSegments, start: Array, width: int, height: int) -> Array:
     """Refine on the inliers, their threshold shrinking; keep what costs least and is invertible."""
-    parameters, left = start, bend(binned, BROWN, start, slopes=range(7))
-    best, best_cost = start, mean_cost(squared_errors(binned, left))
+    parameters, best, best_cost = start, start, np.inf
     for free in ((0, 1), tuple(range(7))):
+        left = bend(binned, BROWN, parameters, slopes=free)
+        if not np.isfinite(best_cost):
+            best_cost = mean_cost(squared_errors(binned, left))
         for widening in (3.0, 2.0, 1.0, 1.0):
             inlier = np.flatnonzero(squared_errors(binned, left) < (widening * THRESHOLD) ** 2)
             parameters = _step(parameters, free, left, binned.sigma, inlier)
-            left = bend(binned, BROWN, parameters, slopes=range(7))
+            left = bend(binned, BROWN, parameters, slopes=free)
             cost = mean_cost(squared_errors(binned, left))
             if cost < best_cost and _lens(parameters, width, height).is_invertible():
                 best, best_cost = parameters, cost
@@ -104,10 +105,10 @@ def _polish(binned: BinnedSegments, start: Array, width: int, height: int) -> Ar
 
 
 def _step(start: Array, free: tuple[int, ...], left: Bend, sigma: Array, chosen: NDArray[np.int64]) -> Array:
-    """Take a Gauss-Newton step that straightens the chosen segments, under the priors."""
+    """Take a Gauss-Newton step that straightens the chosen segments, under the priors; `left` has the free slopes."""
     rows, parameters = list(free), start.copy()
     precision = PRIOR_SD[rows] ** -2
-    slope = left.quadratic_slope[chosen][:, rows]
+    slope = left.quadratic_slope[chosen]
     weighted = slope / sigma[chosen, None] ** 2
     gradient = weighted.T @ left.quadratic[chosen] + precision * parameters[rows]
     parameters[rows] -= np.linalg.solve(weighted.T @ slope + np.diag(precision), gradient)

@@ -42,11 +42,11 @@ class DetectionParameters:
     """
 
     min_length: float = 100.0
-    low_threshold: float = 40.0
-    high_threshold: float = 80.0
+    low_threshold: float = 30.0
+    high_threshold: float = 60.0
     clahe_clip: float = 2.0
     clahe_tile: float = 96.0
-    sigma: float = 0.5
+    sigma: float = 0.6
     operating_point: OperatingPoint = "balanced"
 
     def __post_init__(self) -> None:

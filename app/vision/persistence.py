@@ -99,10 +99,12 @@ def _samples(segments: Segments) -> tuple[Array, Array, NDArray[np.uint32]]:
 def _hits(maps: Sequence[NDArray[np.uint32]], samples: Array, wanted: NDArray[np.uint32]) -> Array:
     """Count the maps that have an edge of the wanted direction along most of the samples, float64 ``(S,)``."""
     hits = np.zeros(len(samples))
-    for cells in maps:
-        column, row = _cells(samples, cells)
-        hit = (cells[row, column] & wanted[:, None]) != 0
-        hits += hit.mean(1) >= HIT_SHARE
+    if maps:
+        # all maps are of one camera and so of one size
+        column, row = _cells(samples, maps[0])
+        for cells in maps:
+            hit = (cells[row, column] & wanted[:, None]) != 0
+            hits += hit.mean(1) >= HIT_SHARE
     return hits
 
 

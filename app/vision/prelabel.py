@@ -83,6 +83,7 @@ def prelabel(
     *,
     camera: CameraMode = "joint",
     progress: Progress | None = None,
+    cancelled: Callable[[], bool] | None = None,
     seed: int = 0,
 ) -> PrelabelResult:
     """Detect candidates in all images, estimate the lens and judge straightness.
@@ -92,11 +93,13 @@ def prelabel(
         parameters: Of the detection; the defaults if left out.
         camera: ``"joint"`` if all images share a lens, ``"per-image"`` if each has its own.
         progress: Told after each image.
+        cancelled: Asked now and then while images are detected; True calls the whole off.
         seed: Of the random samples of MSAC.
 
     Raises:
         InvalidInput: If `camera` is neither, or images of different size should share a lens.
         InvalidImage: If an image is none.
+        Cancelled: If `cancelled` says so.
     """
     parameters = parameters or DetectionParameters()
     _check_mode(camera)
@@ -104,29 +107,37 @@ def prelabel(
         _check_one_size([image.shape[1::-1] for image in images if np.ndim(image) == 2])
     detections = []
     for number, image in enumerate(images):
-        detections.append(detect_for_prelabel(image, parameters))
+        detections.append(detect_for_prelabel(image, parameters, cancelled=cancelled))
         if progress is not None:
             progress(number + 1, len(images))
     return assemble(detections, camera=camera, seed=seed)
 
 
-def detect_for_prelabel(gray: NDArray[Any], parameters: DetectionParameters) -> Detection:
+def detect_for_prelabel(
+    gray: NDArray[Any], parameters: DetectionParameters, *, cancelled: Callable[[], bool] | None = None
+) -> Detection:
     """Detect the candidates of one image and, in the same pass, the shorter segments that the lens is read off.
 
     Args:
         gray: Grey image ``(H, W)``.
         parameters: Of the detection; its `min_length` holds for the candidates.
+        cancelled: Asked now and then; True calls the detection off.
 
     Raises:
         InvalidImage: If it is no grey image.
+        Cancelled: If `cancelled` says so.
     """
     start = time.perf_counter()
-    shortest = min(MIN_LENS_LENGTH, parameters.min_length)
-    found = detect(gray, replace(parameters, min_length=shortest))
+    found = detect(gray, long_enough_for_lens(parameters), cancelled=cancelled)
     extents = found.extents()
     candidates, lens_segments = (found.select(extents >= least) for least in (parameters.min_length, MIN_LENS_LENGTH))
     height, width = gray.shape
     return Detection(width, height, candidates, lens_segments, time.perf_counter() - start)
+
+
+def long_enough_for_lens(parameters: DetectionParameters) -> DetectionParameters:
+    """Return parameters that let the segments pass that the lens is read off, where they are shorter than asked for."""
+    return replace(parameters, min_length=min(MIN_LENS_LENGTH, parameters.min_length))
 
 
 def assemble(detections: Sequence[Detection], *, camera: CameraMode = "joint", seed: int = 0) -> PrelabelResult:

@@ -43,6 +43,8 @@ MapPoints = Callable[[Array, Array, Array], Mapped]
 """A family of lenses over normalised coordinates: `map_points` of `app.vision.brown` or `division`."""
 STEP = 1e-6
 """Change of a parameter that derivatives are taken over: its square is lost, and so is rounding."""
+TOGETHER = 600
+"""Segments, times lenses, that amplitudes are taken of at once."""
 
 
 class Bend(NamedTuple):
@@ -107,20 +109,48 @@ def bend(binned: BinnedSegments, family: MapPoints, parameters: Array, *, slopes
     return Bend(quadratic, cubic, *by)
 
 
+def amplitudes_over(binned: BinnedSegments, family: MapPoints, lenses: Array) -> tuple[Array, Array]:
+    """Return how far the binned segments still bend under each of many lenses.
+
+    Args:
+        binned: The segments.
+        family: The lens family.
+        lenses: float64 ``(K, P)``, parameters of each lens in half diagonals.
+
+    Returns:
+        Quadratic and cubic amplitudes, float64 ``(K, S)`` each, px.
+    """
+    found = np.empty((2, len(lenses), len(binned)))
+    # few segments leave room in the cache for several lenses at once, which spares calls
+    together = max(1, TOGETHER // max(len(binned), 1))
+    for first in range(0, len(lenses), together):
+        some = lenses[first : first + together].T[:, :, None, None]
+        found[:, first : first + together] = _amplitudes(binned, family, some)[:2]
+    return found[0], found[1]
+
+
 def _amplitudes(
     binned: BinnedSegments, family: MapPoints, parameters: Array, near: Array | None = None
 ) -> tuple[Array, Array, Array]:
-    """Return quadratic and cubic amplitude and the direction of the line, in rad, of either sense or next to `near`."""
+    """Return quadratic and cubic amplitude and the direction of the line, in rad, of either sense or next to `near`.
+
+    Parameters are ``(P,)`` for results ``(S,)``, or ``(P, K, 1, 1)`` for ``(K, S)``.
+    """
     weight = binned.weight
     mapped = family(parameters, binned.x, binned.y)
-    u = mapped.x - np.einsum("sb,sb->s", weight, mapped.x)[:, None]
-    v = mapped.y - np.einsum("sb,sb->s", weight, mapped.y)[:, None]
+    u = mapped.x - _summed(weight, mapped.x)[..., None]
+    v = mapped.y - _summed(weight, mapped.y)[..., None]
     wu, wv = weight * u, weight * v
-    xx, xy, yy = np.einsum("sb,sb->s", wu, u), np.einsum("sb,sb->s", wu, v), np.einsum("sb,sb->s", wv, v)
+    xx, xy, yy = _summed(wu, u), _summed(wu, v), _summed(wv, v)
     angle = 0.5 * np.arctan2(2 * xy, xx - yy)
     if near is not None:
         angle += np.pi * np.round((near - angle) / np.pi)
-    nx, ny = -np.sin(angle)[:, None], np.cos(angle)[:, None]
+    nx, ny = -np.sin(angle)[..., None], np.cos(angle)[..., None]
     stretch = np.sqrt((mapped.xx * nx + mapped.xy * ny) ** 2 + (mapped.xy * nx + mapped.yy * ny) ** 2)
     residual = binned.scale * (nx * u + ny * v) / np.maximum(stretch, 1e-6)
-    return np.einsum("sb,sb->s", binned.quadratic, residual), np.einsum("sb,sb->s", binned.cubic, residual), angle
+    return _summed(binned.quadratic, residual), _summed(binned.cubic, residual), angle
+
+
+def _summed(left: Array, right: Array) -> Array:
+    """Sum products over the bins."""
+    return np.einsum("...b,...b->...", left, right)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -131,5 +131,7 @@ class Segments:
         """Return the chosen segments: a boolean mask ``(S,)`` or indices, in the order given."""
         index: NDArray[Any] = np.asarray(chosen)
         index = np.flatnonzero(index) if index.dtype == bool else index.astype(np.int64)
-        scores = None if self.scores is None else self.scores[index]
-        return replace(Segments.from_list([self[int(i)] for i in index]), scores=scores)
+        starts, counts = self.offsets[:-1][index], self.counts[index]
+        offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        rows = np.arange(offsets[-1]) + np.repeat(starts - offsets[:-1], counts)
+        return Segments(self.points[rows], offsets, None if self.scores is None else self.scores[index])

@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
+FOLDERS = ("york", "kitti", "carnd")
 
 
 @dataclass(frozen=True)
@@ -38,11 +39,20 @@ class Target:
 
 def arguments(description: str, *folders: str) -> argparse.Namespace:
     """Read ``--json`` and a folder per name, by default under the data that lies beside the project."""
+    return argument_parser(description, *folders).parse_args()
+
+
+def argument_parser(description: str, *folders: str) -> argparse.ArgumentParser:
+    """Return the parser of `arguments`, for a program that takes more.
+
+    Folders of other benchmarks are read as well, so that all of them can be run with the same arguments.
+    """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--json", action="store_true", help="print one JSON object as the last line")
-    for folder in folders:
-        parser.add_argument(f"--{folder}", type=Path, default=DATA / folder, help=f"default: {DATA / folder}")
-    return parser.parse_args()
+    for folder in dict.fromkeys((*folders, *FOLDERS)):
+        words = f"default: {DATA / folder}" if folder in folders else argparse.SUPPRESS
+        parser.add_argument(f"--{folder}", type=Path, default=DATA / folder, help=words)
+    return parser
 
 
 def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

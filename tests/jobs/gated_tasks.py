@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from app.jobs.tasks import DetectionResult, detect_task
+from app.jobs.tasks import DetectionResult, ImageHistory, detect_task, history_task
 
 
 def gated_detect(content: bytes, name: str, parameters: dict[str, Any], **options: Any) -> DetectionResult:
@@ -27,3 +27,10 @@ def deadly_detect(content: bytes, name: str, parameters: dict[str, Any], **optio
     if name.startswith("deadly"):
         os.kill(os.getpid(), signal.SIGKILL)
     return detect_task(content, name, parameters, **options)
+
+
+def deadly_history(content: bytes, name: str, parameters: dict[str, Any], **options: Any) -> ImageHistory:
+    """Dies of images named ``deadly...`` as ``deadly_detect`` does."""
+    if name.startswith("deadly"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return history_task(content, name, parameters, **options)

@@ -9,9 +9,9 @@ from app.errors import InvalidInput
 from app.vision.parameters import DetectionParameters
 
 
-def test_the_defaults_are_the_papers_thresholds() -> None:
+def test_the_defaults_find_weaker_edges_than_the_papers_thresholds() -> None:
     parameters = DetectionParameters()
-    assert (parameters.low_threshold, parameters.high_threshold) == (40.0, 80.0)
+    assert (parameters.low_threshold, parameters.high_threshold) == (30.0, 60.0)
     assert parameters.min_length == 100.0
     assert parameters.clahe_clip == 2.0
     assert parameters.operating_point == "balanced"
@@ -59,3 +59,16 @@ def test_a_list_is_no_set_of_parameters() -> None:
 
 def test_whole_numbers_are_taken_as_lengths() -> None:
     assert DetectionParameters(min_length=60).as_dict()["min_length"] == 60.0
+
+
+def test_parameters_that_were_stored_before_are_read_as_they_were() -> None:
+    stored = {
+        "min_length": 100.0,
+        "low_threshold": 40.0,
+        "high_threshold": 80.0,
+        "clahe_clip": 2.0,
+        "clahe_tile": 96.0,
+        "sigma": 0.5,
+        "operating_point": "balanced",
+    }
+    assert DetectionParameters.from_dict(stored).as_dict() == stored

@@ -2,7 +2,7 @@
 
 import { apiUrl, client, unwrap } from "./client";
 import type { components, paths } from "./schema";
-import type { ImageSegments, NewDecision, ReviewStatus } from "./types";
+import type { ImageSegments, NewDecision, ReviewStatus, StageHistory } from "./types";
 
 type Schemas = components["schemas"];
 export type ImageFilter = Omit<
@@ -53,6 +53,13 @@ export const getPoints = (id: number): Promise<ArrayBuffer> =>
   unwrap(client.GET("/api/images/{image_id}/points", { params: image(id), parseAs: "arrayBuffer" }));
 export const getDecisions = (id: number) =>
   unwrap(client.GET("/api/images/{image_id}/decisions", { params: image(id) }));
+export const getStageHistory = (segment_id: number, signal?: AbortSignal) =>
+  unwrap(
+    client.GET("/api/segments/{segment_id}/history", {
+      params: { path: { segment_id } },
+      ...(signal === undefined ? {} : { signal }),
+    }),
+  ) as Promise<StageHistory>;
 export const postDecisions = (id: number, decisions: NewDecision[]) =>
   unwrap(client.POST("/api/images/{image_id}/decisions", { params: image(id), body: { decisions } }));
 export const putReview = (id: number, status: ReviewStatus, reason: string | null = null) =>

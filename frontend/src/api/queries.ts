@@ -13,6 +13,7 @@ export const keys = {
   runs: (slug: string) => ["datasets", slug, "runs"] as const,
   cameras: (slug: string) => ["datasets", slug, "cameras"] as const,
   image: (id: number) => ["images", id] as const,
+  stages: (imageId: number, segmentId: number) => ["images", imageId, "stages", segmentId] as const,
 };
 
 export const configurationQuery = queryOptions({
@@ -26,6 +27,13 @@ export const datasetQuery = (slug: string) =>
 
 export const imageQuery = (id: number) =>
   queryOptions({ queryKey: keys.image(id), queryFn: () => api.getImage(id) });
+
+export const stagesQuery = (imageId: number, segmentId: number) =>
+  queryOptions({
+    queryKey: keys.stages(imageId, segmentId),
+    queryFn: ({ signal }) => api.getStageHistory(segmentId, signal),
+    staleTime: Number.POSITIVE_INFINITY,
+  });
 
 export function makeQueryClient(): QueryClient {
   return new QueryClient({

@@ -574,6 +574,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/segments/{segment_id}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read History
+         * @description Return how a candidate was found: its pieces, what joined them, what was added and cut, and its score's parts.
+         *
+         *     Nothing of it is stored: the image is detected again with the run's parameters. 404 with the code ``no-history``
+         *     when a person drew the segment, it was imported, or another version of the detector found it.
+         */
+        get: operations["read_history_api_segments__segment_id__history_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1205,6 +1228,49 @@ export interface components {
             source?: string | null;
         };
         /**
+         * Join
+         * @description A gap between two pieces that merging closed.
+         */
+        Join: {
+            /**
+             * Cost
+             * @description What the gap counted for, the evidence in the image considered, px.
+             */
+            cost: number;
+            /**
+             * End
+             * @description x, y in px.
+             */
+            end: [
+                number,
+                number
+            ];
+            /**
+             * Flipped
+             * @description Whether the bright side changes here.
+             */
+            flipped: boolean;
+            /**
+             * Gap
+             * @description From start to end, px.
+             */
+            gap: number;
+            /**
+             * Round
+             * @description Round of merging: along one edge; where the bright side may change; after ends were extended.
+             * @enum {string}
+             */
+            round: "following" | "flipping" | "after extension";
+            /**
+             * Start
+             * @description x, y in px.
+             */
+            start: [
+                number,
+                number
+            ];
+        };
+        /**
          * Limits
          * @description Bounds on what is uploaded.
          */
@@ -1217,6 +1283,33 @@ export interface components {
             max_image_pixels: number;
             /** Max Upload Bytes */
             max_upload_bytes: number;
+        };
+        /**
+         * Piece
+         * @description An arc that was fitted to edge points without interruption.
+         */
+        Piece: {
+            /**
+             * End
+             * @description x, y in px.
+             */
+            end: [
+                number,
+                number
+            ];
+            /**
+             * Length
+             * @description From start to end, px.
+             */
+            length: number;
+            /**
+             * Start
+             * @description x, y in px.
+             */
+            start: [
+                number,
+                number
+            ];
         };
         /**
          * Problem
@@ -1526,6 +1619,39 @@ export interface components {
             total: number;
         };
         /**
+         * ScorePart
+         * @description One feature's part in the score.
+         */
+        ScorePart: {
+            /**
+             * Measured
+             * @description What was measured, in the unit.
+             */
+            measured: number | null;
+            /** Name */
+            name: string;
+            /**
+             * Typical
+             * @description Mean value over the image's candidates.
+             */
+            typical: number;
+            /**
+             * Unit
+             * @description px, share (of the segment's length), grey levels, or empty.
+             */
+            unit: string;
+            /**
+             * Value
+             * @description As the score takes it: a logarithm, mostly.
+             */
+            value: number;
+            /**
+             * Weight
+             * @description What the value is multiplied by.
+             */
+            weight: number;
+        };
+        /**
          * SegmentAnswer
          * @description A candidate without its points, which ``/points`` gives in one binary answer.
          */
@@ -1597,6 +1723,56 @@ export interface components {
             segments: components["schemas"]["SegmentAnswer"][];
             /** Width */
             width: number;
+        };
+        /**
+         * StageHistory
+         * @description How a candidate was found. Lists run from its first point to its last.
+         */
+        StageHistory: {
+            /**
+             * Extended
+             * @description px added before the first piece and after the last.
+             */
+            extended: [
+                number,
+                number
+            ];
+            /** Image Id */
+            image_id: number;
+            /** Intercept */
+            intercept: number;
+            /**
+             * Joins
+             * @description One less than pieces.
+             */
+            joins: components["schemas"]["Join"][];
+            /**
+             * Pieces
+             * @description What it was merged from; one piece if it was never broken.
+             */
+            pieces: components["schemas"]["Piece"][];
+            /**
+             * Run Id
+             * @description The run that found it.
+             */
+            run_id: number;
+            /**
+             * Score
+             * @description Evidence for an edge, 0 to 1: the logistic of intercept + sum(weight * value).
+             */
+            score: number;
+            /** Score Parts */
+            score_parts: components["schemas"]["ScorePart"][];
+            /** Segment Id */
+            segment_id: number;
+            /**
+             * Trimmed
+             * @description px cut off at the start and at the end.
+             */
+            trimmed: [
+                number,
+                number
+            ];
         };
         /**
          * ThumbnailSize
@@ -3718,6 +3894,68 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_history_api_segments__segment_id__history_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                segment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StageHistory"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -32,6 +32,10 @@ export type RunChanges = Schemas["RunChanges"];
 export type ImageSegments = Schemas["SegmentsAnswer"];
 export type SegmentFacts = Schemas["SegmentAnswer"];
 export type StoredDecision = Schemas["DecisionAnswer"];
+/** How the pipeline found a candidate. */
+export type StageHistory = Schemas["StageHistory"];
+export type StageJoin = Schemas["Join"];
+export type ScorePart = Schemas["ScorePart"];
 export type NewDecision = Schemas["DecisionGiven"];
 export type DecisionsStored = Schemas["DecisionsStored"];
 

@@ -10,8 +10,10 @@ import { CandidateBitmap } from "./layers/candidate_bitmap";
 import type { CandidateLook } from "./layers/candidate_layer";
 import { drawHighlights } from "./layers/highlight_layer";
 import { drawImageLayer } from "./layers/image_layer";
+import { drawStages } from "./layers/stage_layer";
 import { clearSurface, makeSurface, resizeSurface, type Surface, setScreenUnits } from "./layers/surface";
 import { EMPTY_SCENE, type Scene } from "./scene";
+import type { StageTrace } from "./stage_trace";
 import type { Size, Viewport } from "./viewport";
 
 /** How long the view must rest before the candidates are drawn exactly (ms). */
@@ -27,6 +29,10 @@ export interface RendererState {
   readonly viewport: Viewport;
   readonly selected: number | null;
   readonly hovered: number | null;
+  /** How the selected candidate was found; null while nobody asks. */
+  readonly stages: StageTrace | null;
+  /** Which of its gaps is pointed at. */
+  readonly markedGap: number | null;
 }
 
 /** The parts of the picture that a change touches. */
@@ -40,6 +46,8 @@ const START: RendererState = {
   viewport: { scale: 1, offsetX: 0, offsetY: 0 },
   selected: null,
   hovered: null,
+  stages: null,
+  markedGap: null,
 };
 
 export class Renderer {
@@ -165,9 +173,16 @@ export class Renderer {
   }
 
   private drawHighlights(): void {
-    const { scene, look, viewport, selected, hovered } = this.state;
+    const { scene, look, viewport, selected, hovered, stages, markedGap } = this.state;
     clearSurface(this.highlightSurface);
     setScreenUnits(this.highlightSurface, this.ratio);
-    drawHighlights(this.highlightSurface.context, scene, look, viewport, selected, hovered);
+    const { context } = this.highlightSurface;
+    // A trace that came for a candidate selected before is not drawn.
+    const trace = stages !== null && stages.index === selected ? stages : null;
+    if (trace === null) drawHighlights(context, scene, look, viewport, selected, hovered);
+    else {
+      drawHighlights(context, scene, look, viewport, null, hovered === selected ? null : hovered);
+      drawStages(context, trace, viewport, markedGap);
+    }
   }
 }

@@ -30,6 +30,20 @@ export const BENT_STYLE: LineStyle = { colour: "#c9b8ff", width: 1.4, dash: [14,
 export const CASING = { colour: "rgba(6, 10, 16, 0.62)", extra: 2.2 } as const;
 export const SELECTION = { halo: "#ffffff", casing: "rgba(6, 10, 16, 0.85)", width: 3.2 } as const;
 
+/**
+ * How a candidate was found. The pieces' colours take turns and differ in hue and lightness for everybody; ticks at
+ * their ends, dashes over gaps and dots along what was added say the same without colour.
+ */
+export const STAGES = {
+  rim: { colour: "#ffffff", width: 10.6 },
+  bed: { colour: "#0a0f17", width: 8.6 },
+  pieces: { colours: ["#ffbf40", "#5fb8ff"], width: 4 },
+  gap: { colour: "#ffffff", width: 2, dash: [4, 4] },
+  added: { colour: "#ffffff", width: 3.4, dash: [0.01, 6.5] },
+  tick: { colour: "#ffffff", width: 1.6, reach: 7 },
+  mark: { colour: "#ffffff", width: 2.4, radius: 12 },
+} as const;
+
 /** Drawing order: what matters most lies on top. */
 export const STYLE_ORDER = ["reject", "bent", "undecided", "ambiguous", "keep"] as const;
 export type StyleName = (typeof STYLE_ORDER)[number];

@@ -7,7 +7,9 @@ import { between, glide } from "./glide";
 import type { CandidateLook } from "./layers/candidate_layer";
 import { Renderer } from "./renderer";
 import { EMPTY_SCENE, type Hit, type Scene } from "./scene";
+import type { StageTrace } from "./stage_trace";
 import {
+  centreOn,
   fitScale,
   fitted,
   keepInReach,
@@ -25,6 +27,8 @@ const MOUSE_REACH = 7;
 const TOUCH_REACH = 18;
 /** One press of a zoom key. */
 const ZOOM_STEP = 1.4;
+/** Screen px per image px at which single pixels can be told apart. */
+const CLOSE_SCALE = 6;
 /** Two clicks this close to each other are at one place (screen px). */
 const SAME_PLACE = 3;
 
@@ -102,7 +106,7 @@ export class CanvasView {
     this.selected = null;
     this.lastClick = null;
     this.renderer.update(
-      { image: null, imageSize, scene: EMPTY_SCENE, selected: null, hovered: null },
+      { image: null, imageSize, scene: EMPTY_SCENE, selected: null, hovered: null, stages: null },
       "image",
       "scene",
     );
@@ -130,6 +134,11 @@ export class CanvasView {
     this.renderer.update({ selected }, "highlights");
   }
 
+  /** Draws how a candidate was found in place of its highlight, as long as it is selected; null: no longer. */
+  setStages(stages: StageTrace | null, marked: number | null): void {
+    this.renderer.update({ stages, markedGap: marked }, "highlights");
+  }
+
   fit(): void {
     this.moveTo(fitted(this.imageSize, this.screen));
     this.fitted = true;
@@ -155,6 +164,14 @@ export class CanvasView {
     this.beforeZoom = to.scale === from.scale ? null : from;
     this.glideTo(to);
     this.fitted = wasFitted && to === from;
+  }
+
+  /** Goes close to a position for a look; the next candidate is shown from where the view was. */
+  lookAt(position: Point): void {
+    const from = this.beforeZoom ?? this.goal ?? this.viewport;
+    this.glideTo(centreOn(position, Math.max(from.scale, CLOSE_SCALE), this.screen));
+    this.beforeZoom = from;
+    this.fitted = false;
   }
 
   /** A movement that the person made: the view stays there. */

@@ -14,6 +14,8 @@ export interface LabelActions {
   discard(): void;
   goToImage(direction: 1 | -1): void;
   leaveSelection(): void;
+  toggleStages(): void;
+  stepJoin(direction: 1 | -1): void;
   toggleKeyList(): void;
   fit(): void;
   zoom(direction: 1 | -1): void;
@@ -92,6 +94,23 @@ export const COMMANDS: readonly Command[] = [
     run: (a) => a.leaveSelection(),
   },
   { id: "hide-rejected", keys: ["H"], label: "Hide rejected", group: "View", run: (a) => a.toggleRejected() },
+  { id: "stages", keys: ["I"], label: "How it was found", group: "View", run: (a) => a.toggleStages() },
+  {
+    id: "next-join",
+    keys: ["J"],
+    label: "… its next join",
+    group: "View",
+    repeats: true,
+    run: (a) => a.stepJoin(1),
+  },
+  {
+    id: "previous-join",
+    keys: ["Shift+J"],
+    label: "… its previous join",
+    group: "View",
+    repeats: true,
+    run: (a) => a.stepJoin(-1),
+  },
   { id: "fit", keys: ["F"], label: "Fit the image", group: "View", run: (a) => a.fit() },
   { id: "zoom-in", keys: ["+", "="], label: "Zoom in", group: "View", repeats: true, run: (a) => a.zoom(1) },
   { id: "zoom-out", keys: ["-"], label: "Zoom out", group: "View", repeats: true, run: (a) => a.zoom(-1) },

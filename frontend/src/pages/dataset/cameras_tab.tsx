@@ -7,7 +7,7 @@ import type { Camera } from "../../api/types";
 import { Badge } from "../../design/badge";
 import { IconButton } from "../../design/button";
 import { Ellipsis } from "../../design/ellipsis";
-import { formatCount, formatQuantity } from "../../design/format";
+import { formatCount, formatQuantity, sentence } from "../../design/format";
 import { InlineEdit } from "../../design/inline_edit";
 import { EmptyState, ErrorState } from "../../design/states";
 import { type LensEstimate, largestShift, readEstimate } from "./lens";
@@ -85,14 +85,13 @@ function CameraName({ slug, camera }: { slug: string; camera: Camera }) {
 }
 
 function Estimate({ estimate }: { estimate: LensEstimate }) {
-  const { accepted, reasons, k, predictedError, trusted } = estimate;
+  const { accepted, reasons, k, predictedError, correction, trusted } = estimate;
   const facts: [string, string][] = [
+    ["Correction", rms(correction)],
+    ["Predicted error", rms(predictedError)],
     ["Largest shift", `${largestShift(estimate).toFixed(1)} px`],
-    ["Predicted error", predictedError === null ? "Not known" : `${predictedError.toFixed(2)} px RMS`],
     ["Straight lines used", trusted === null ? "Not known" : formatCount(trusted)],
-    ["k1", coefficient(k[0])],
-    ["k2", coefficient(k[1])],
-    ["k3", coefficient(k[2])],
+    ["k1, k2, k3", [0, 1, 2].map((i) => coefficient(k[i])).join(", ")],
   ];
   return (
     <>
@@ -103,12 +102,12 @@ function Estimate({ estimate }: { estimate: LensEstimate }) {
           </Badge>
         ) : (
           <Badge tone="warning" icon="warning">
-            Not enough information
+            Lens refused
           </Badge>
         )}
         {reasons.map((reason) => (
           <p key={reason} className="muted">
-            {reason}
+            {sentence(reason)}
           </p>
         ))}
       </div>
@@ -135,6 +134,11 @@ function Reference({ reference }: { reference: Record<string, unknown> }) {
       D = {D.map((value) => value.toFixed(4)).join(", ")}
     </p>
   );
+}
+
+/** Over the frame. */
+function rms(length: number | null): string {
+  return length === null ? "Not known" : `${length.toFixed(2)} px RMS`;
 }
 
 function coefficient(value: number | undefined): string {

@@ -8,6 +8,7 @@ import type { LabelStore } from "../../labelling/label_store";
 import { outbox } from "../../labelling/outbox_start";
 import { Announcer } from "./announcer";
 import { CanvasRegion } from "./canvas_region";
+import { focusJoin } from "./join_list";
 import { KeyList } from "./key_list";
 import { NoCandidates } from "./no_candidates";
 import { LeftHint, LoadingNotice, ReviewBanner } from "./notices";
@@ -37,6 +38,8 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
   const { shown, control } = useOverlays(image.id);
   const { bitmap, error: bitmapError, retry } = useImageBitmap(image.id, image);
   const leaveImage = useCallback(() => panelRef.current?.focus(), []);
+  const enterImage = useCallback(() => regionRef.current?.focus({ preventScroll: true }), []);
+  const stepJoin = useCallback((direction: 1 | -1) => focusJoin(panelRef.current, direction), []);
   const whenHistoryKnown = useHistory(image.id, store);
   const actions = useLabelActions({
     slug,
@@ -44,6 +47,8 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
     store,
     viewRef,
     leaveImage,
+    enterImage,
+    stepJoin,
     overlays: control,
     whenHistoryKnown,
   });
@@ -55,7 +60,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: each image starts with the focus on it
   useEffect(() => {
-    regionRef.current?.focus({ preventScroll: true });
+    enterImage();
     return () => {
       dismissToast(REJECTED_TOAST);
       dismissToast(HISTORY_TOAST);
@@ -112,6 +117,8 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           scene={scene}
           bitmap={bitmap}
           actions={actions}
+          viewRef={viewRef}
+          stages={shown.stages}
           discarding={shown.discarding && image.status !== "discarded"}
           panelRef={panelRef}
         />

@@ -1,22 +1,31 @@
-import type { SegmentFacts, Verdict } from "../../api/types";
+import type { RefObject } from "react";
+import type { ImageDetail, SegmentFacts } from "../../api/types";
 import type { Scene } from "../../canvas/scene";
+import type { CanvasView } from "../../canvas/view";
 import { IconButton } from "../../design/button";
 import { formatCount } from "../../design/format";
 import { toast } from "../../design/toast";
 import { isBent, type LabelState, selectedPlace, verdictAt } from "../../labelling/label_state";
 import { Magnifier } from "./magnifier";
+import { StageSection } from "./stage_section";
+import type { PageActions } from "./use_label_actions";
 import { addressOf } from "./use_segment_address";
 import { VerdictButtons } from "./verdict_buttons";
 
 interface SelectionSectionProps {
+  image: ImageDetail;
   state: LabelState;
   scene: Scene;
   bitmap: ImageBitmap | null;
-  onJudge: (verdict: Verdict) => void;
+  actions: PageActions;
+  viewRef: RefObject<CanvasView | null>;
+  /** Whether it is told how the candidate was found. */
+  stages: boolean;
 }
 
 /** The selected candidate: close-ups, facts and the verdict. */
-export function SelectionSection({ state, scene, bitmap, onJudge }: SelectionSectionProps) {
+export function SelectionSection(props: SelectionSectionProps) {
+  const { image, state, scene, bitmap, actions, viewRef, stages } = props;
   const { selected } = state;
   const candidate = selected === null ? undefined : state.candidates[selected];
   const verdict = selected === null ? null : verdictAt(state, selected);
@@ -39,7 +48,7 @@ export function SelectionSection({ state, scene, bitmap, onJudge }: SelectionSec
           )}
         </span>
       </div>
-      <VerdictButtons current={verdict} onJudge={onJudge} />
+      <VerdictButtons current={verdict} onJudge={actions.judge} />
       {candidate === undefined || selected === null || verdict === null ? (
         <p className="muted panel-hint">Click a line or press Tab to select one.</p>
       ) : (
@@ -51,6 +60,15 @@ export function SelectionSection({ state, scene, bitmap, onJudge }: SelectionSec
             style={verdict === "undecided" && isBent(state, selected) ? "bent" : verdict}
           />
           <Facts candidate={candidate} />
+          <StageSection
+            imageId={image.id}
+            candidate={candidate}
+            index={selected}
+            scene={scene}
+            viewRef={viewRef}
+            open={stages}
+            onToggle={actions.toggleStages}
+          />
         </>
       )}
     </section>

@@ -1,6 +1,7 @@
 import type { RefObject } from "react";
 import type { ImageDetail } from "../../api/types";
 import type { Scene } from "../../canvas/scene";
+import type { CanvasView } from "../../canvas/view";
 import { Button, IconButton } from "../../design/button";
 import { formatCount } from "../../design/format";
 import { Keys } from "../../design/kbd";
@@ -22,6 +23,9 @@ interface SidePanelProps {
   scene: Scene;
   bitmap: ImageBitmap | null;
   actions: PageActions;
+  viewRef: RefObject<CanvasView | null>;
+  /** Whether it is told how the selected candidate was found. */
+  stages: boolean;
   discarding: boolean;
   panelRef: RefObject<HTMLElement | null>;
 }
@@ -33,6 +37,8 @@ export function SidePanel({
   scene,
   bitmap,
   actions,
+  viewRef,
+  stages,
   discarding,
   panelRef,
 }: SidePanelProps) {
@@ -52,7 +58,15 @@ export function SidePanel({
     <aside className="label-panel" aria-label="Review" ref={panelRef} tabIndex={-1} id="label-panel">
       <div className="label-panel__scroll">
         <ProgressSection state={state} onShown={changeShown} />
-        <SelectionSection state={state} scene={scene} bitmap={bitmap} onJudge={actions.judge} />
+        <SelectionSection
+          image={image}
+          state={state}
+          scene={scene}
+          bitmap={bitmap}
+          actions={actions}
+          viewRef={viewRef}
+          stages={stages}
+        />
         <section className="panel-section panel-section--row" aria-label="Order of review">
           <span className="field__label" aria-hidden="true">
             Order

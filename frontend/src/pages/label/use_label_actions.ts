@@ -26,6 +26,10 @@ interface ActionParts {
   viewRef: RefObject<CanvasView | null>;
   /** Moves the focus from the image to the panel. */
   leaveImage: () => void;
+  /** Moves the focus to the image. */
+  enterImage: () => void;
+  /** Moves the focus through what joined the selected candidate's pieces. */
+  stepJoin: (direction: 1 | -1) => void;
   overlays: Overlays;
   whenHistoryKnown: (act: () => void) => void;
 }
@@ -33,6 +37,7 @@ interface ActionParts {
 /** What may lie beside or above the image. */
 interface Overlays {
   toggleKeyList: () => void;
+  toggleStages: () => void;
   setLeftHint: (visible: boolean) => void;
   setDiscarding: (visible: boolean) => void;
   /** Closes whatever is open; false where nothing was. */
@@ -45,7 +50,7 @@ export interface PageActions extends LabelActions {
 
 /** What keys and buttons do, on this page's store, view and router. */
 export function useLabelActions(parts: ActionParts): PageActions {
-  const { slug, image, store, viewRef, leaveImage, overlays, whenHistoryKnown } = parts;
+  const { slug, image, store, viewRef, leaveImage, enterImage, stepJoin, overlays, whenHistoryKnown } = parts;
   const navigate = useNavigate();
   const queryClient = useQueryClient();
   return useMemo(() => {
@@ -134,8 +139,9 @@ export function useLabelActions(parts: ActionParts): PageActions {
     }
 
     function leaveSelection(): void {
-      if (overlays.close()) return;
-      if (store !== null && store.getState().selected !== null) store.select(null);
+      // What had the focus may be gone with what is closed.
+      if (overlays.close()) enterImage();
+      else if (store !== null && store.getState().selected !== null) store.select(null);
       else leaveImage();
     }
 
@@ -151,10 +157,24 @@ export function useLabelActions(parts: ActionParts): PageActions {
       leaveSelection,
       discard: () => overlays.setDiscarding(image?.status !== "discarded"),
       toggleKeyList: overlays.toggleKeyList,
+      toggleStages: overlays.toggleStages,
+      stepJoin,
       fit: () => viewRef.current?.fit(),
       zoom: (direction) => viewRef.current?.zoomStep(direction),
       pan: (dx, dy) => viewRef.current?.panStep(dx, dy),
       setReview,
     };
-  }, [slug, image, store, viewRef, leaveImage, overlays, whenHistoryKnown, navigate, queryClient]);
+  }, [
+    slug,
+    image,
+    store,
+    viewRef,
+    leaveImage,
+    enterImage,
+    stepJoin,
+    overlays,
+    whenHistoryKnown,
+    navigate,
+    queryClient,
+  ]);
 }

@@ -6,23 +6,26 @@ interface Shown {
   readonly leftHint: boolean;
   /** The reason for discarding is being asked for. */
   readonly discarding: boolean;
+  /** How the selected candidate was found. */
+  readonly stages: boolean;
 }
 
-const NOTHING: Shown = { keyList: false, leftHint: false, discarding: false };
+const NOTHING: Shown = { keyList: false, leftHint: false, discarding: false, stages: false };
 
-/** What lies beside or above the image; all but the key list belongs to one image. */
+/** What lies beside or above the image; what one reads along with all images stays, the rest belongs to one. */
 export function useOverlays(imageId: number) {
   const [shown, setShown] = useState(NOTHING);
   const latest = useRef(shown);
   latest.current = shown;
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: another image begins without them
-  useEffect(() => setShown(({ keyList }) => ({ ...NOTHING, keyList })), [imageId]);
+  useEffect(() => setShown(({ keyList, stages }) => ({ ...NOTHING, keyList, stages })), [imageId]);
 
   const control = useMemo(() => {
     const change = (part: Partial<Shown>) => setShown((before) => ({ ...before, ...part }));
     return {
       toggleKeyList: () => setShown((before) => ({ ...before, keyList: !before.keyList })),
+      toggleStages: () => setShown((before) => ({ ...before, stages: !before.stages })),
       setLeftHint: (leftHint: boolean) => change({ leftHint }),
       setDiscarding: (discarding: boolean) => change({ discarding }),
       close: () => {

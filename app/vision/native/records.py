@@ -1,0 +1,90 @@
+"""The records that cross the border to C, field for field those of ``kernels.h``, ``merging.c`` and ``selection.c``."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import c_int32, c_void_p
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+POINT = np.dtype([("along", "i4"), ("across", "f4"), ("slope", "f4"), ("norm", "f4")])
+"""A sub-pixel edge point of one pass."""
+
+ARC = np.dtype(
+    [
+        ("origin", "f8", 2),
+        ("sums", "f8", 9),
+        ("traits", "f8", 3),
+        ("foot", "f8", 2),
+        ("tangent", "f8", 2),
+        ("bend", "f8"),
+        ("low", "f8"),
+        ("high", "f8"),
+        ("rms", "f8"),
+        ("first_piece", "i4"),
+        ("last_piece", "i4"),
+        ("first_join", "i4"),
+        ("last_join", "i4"),
+    ]
+)
+"""A circular arc fitted to edge points; see `app.vision.arcs`."""
+
+JOIN = np.dtype(
+    [
+        ("leave", "f4", 2),
+        ("enter", "f4", 2),
+        ("cost", "f4"),
+        ("flipped", "i4"),
+        ("next", "i4"),
+    ]
+)
+"""How two arcs became one; see `app.vision.merging`."""
+
+FINDING = np.dtype(
+    [
+        ("arc", "i4"),
+        ("first", "i4"),
+        ("last", "i4"),
+        ("chord", "f4"),
+        ("samples", "f4"),
+        ("hits", "f4"),
+        ("close", "f4"),
+        ("rms", "f4"),
+        ("mean_norm", "f4"),
+        ("longest_gap", "f4"),
+        ("contrast", "f4"),
+    ]
+)
+"""What is known of a segment; see `app.vision.selection`."""
+
+GRADIENT_SCALE = 16.0
+"""Gradients are kept as integers, in steps of 1 / 16 grey level."""
+
+
+class Scene(ctypes.Structure):
+    """Image, gradient and edge points that arcs are looked at in; `app.vision.edges.EdgeMap` holds the memory."""
+
+    _fields_ = (
+        ("width", c_int32),
+        ("height", c_int32),
+        ("gray", c_void_p),
+        ("gradient_x", c_void_p),
+        ("gradient_y", c_void_p),
+        ("map", c_void_p * 2),
+        ("points", c_void_p * 2),
+    )
+
+
+def address(array: NDArray[Any]) -> int:
+    """Return where an array's memory begins; C reads it in order.
+
+    The number keeps nothing alive: whoever calls a kernel holds the array until that returns.
+
+    Raises:
+        ValueError: If the array isn't contiguous in C's order.
+    """
+    if not array.flags.c_contiguous:
+        raise ValueError("a kernel reads contiguous memory only")
+    return array.ctypes.data
