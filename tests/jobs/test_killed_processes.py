@@ -56,6 +56,8 @@ def test_a_killed_worker_costs_no_image(small_yard, eventually) -> None:
     try:
         begun = eventually(lambda: len(yard.begun()) == 2 and yard.begun(), "two images are being worked on")
         os.kill(begun["held-a"], signal.SIGKILL)
+        # a broken pool ends its other workers: before that the second image might be finished and the first one blamed
+        eventually(lambda: not is_alive(begun["held-b"]), "the other worker ended too")
         yard.open_gate()
         eventually(lambda: yard.finished(run_id), "the run is finished")
     finally:
