@@ -30,7 +30,7 @@ PRIOR_SD = np.array([BARREL_SD, 0.1, 0.15, 0.01, 0.01])
 for a lens of `WIDE` k1."""
 WIDE, LEAST_SHARE = 0.2, 0.2
 """Higher coefficients are the larger the wider a lens is; this share of their prior remains where k1 is 0."""
-SPIKE = 0.03
+SPIKE = 0.1
 """Share of the prior's standard deviation left to k2 and k3 where they are taken to be nearly none."""
 SPIKE_WEIGHT, SLAB_WEIGHT = 3.0, 2.0
 LEAST_CURVATURE = 1.0

@@ -21,7 +21,7 @@ from app.vision.watch import Watch
 # weaker edges than this neither support nor extend a segment
 WEAKEST_NORM = 30.0
 # by how much an edge may be weaker than asked for where nothing should be missed
-_WEAKER: dict[OperatingPoint, float] = {"recall": 0.8, "balanced": 1.0, "precise": 1.0}
+_WEAKER: dict[OperatingPoint, float] = {"recall": 0.85, "balanced": 1.0, "precise": 1.0}
 # pieces of a few px are the glue of the first round of merging; what is shorter than these shares of the shortest
 # segment asked for, and than these px, after it and after extension can't become one by what is left to do
 _LEAST_SHARE_MERGED, _LEAST_MERGED = 0.25, 12.0

@@ -25,7 +25,8 @@ class Measured:
         accepted: Whether the estimate said that it may be used.
         pred: The error it predicts of itself.
         pred_of_identity: The error it predicts of making no correction.
-        seconds: Processor time of fit, verdict and MSAC, without detection; other programs don't disturb it.
+        seconds: Of the thread on the processor, for fit, verdict and MSAC without detection; neither other programs nor the
+            idling threads of a linear algebra library count.
     """
 
     identity: float
@@ -39,9 +40,9 @@ class Measured:
 
 def measure(segments: Sequence[Segments], truth: Lens, width: int, height: int) -> Measured:
     """Estimate the lens of one camera and compare it with the true one."""
-    start = time.process_time()
+    start = time.thread_time()
     estimate = estimate_distortion(segments, (width, height))
-    seconds = time.process_time() - start
+    seconds = time.thread_time() - start
     unchanged = Brown.identity(width, height)
     paper = unchanged if estimate.msac is None else brown_from_dict(estimate.msac)
     identity, msac, ours = (field_error(truth, lens, width, height).rms for lens in (unchanged, paper, estimate.brown))
