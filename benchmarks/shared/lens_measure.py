@@ -25,8 +25,8 @@ class Measured:
         accepted: Whether the estimate said that it may be used.
         pred: The error it predicts of itself.
         pred_of_identity: The error it predicts of making no correction.
-        seconds: Of the thread on the processor, for fit, verdict and MSAC without detection; neither other programs nor the
-            idling threads of a linear algebra library count.
+        seconds: Of the thread on the processor, for fit, verdict and MSAC without detection; neither other programs nor
+            the idling threads of a linear algebra library count.
     """
 
     identity: float
