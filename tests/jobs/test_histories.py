@@ -65,7 +65,8 @@ def prelabelled(yard, *names: str) -> list[Found]:
 
 
 def one_of_each(candidates: list[Found]) -> list[Found]:
-    return list({each.image_id: each for each in candidates}.values())
+    """One candidate of each image, in the order the images were added, whichever worker was done first."""
+    return [each for _, each in sorted({each.image_id: each for each in candidates}.items())]
 
 
 def test_every_candidate_of_a_run_has_a_history(small_yard) -> None:
