@@ -20,6 +20,8 @@ from app.vision.watch import Watch
 
 LARGEST_IMAGE = 40_000_000
 """Pixels; an index of an edge point must fit in 32 bit."""
+LARGEST_SIDE = 65_535
+"""px; the rows kept at a time must stay a small part of an image, however low and wide it is."""
 SMALLEST_SIDE = 3
 """px; a gradient needs a neighbour on either side."""
 
@@ -56,7 +58,8 @@ def detect(
     about 23 bytes per pixel of a photo, 25 where everything is noise.
 
     Args:
-        gray: ``(H, W)``, uint8, uint16 or floating point, up to 40 million pixels; see `to_eight_bit` for the range.
+        gray: ``(H, W)``, uint8, uint16 or floating point, up to 40 million pixels and 65,535 a side; see `to_eight_bit`
+            for the range.
         parameters: What to keep; the defaults where left out.
         progress: Told the share of the work that is done: rising, from 0 to 1. What it raises ends the detection.
         cancelled: Asked now and then; True ends the detection. What it raises does so too.
@@ -93,6 +96,10 @@ def check_image(gray: NDArray[Any]) -> NDArray[np.uint8]:
         raise InvalidImage(
             f"{gray.shape[1]} x {gray.shape[0]} pixels are too many",
             expected=f"at most {LARGEST_IMAGE // 10**6} million",
+        )
+    if max(gray.shape) > LARGEST_SIDE:
+        raise InvalidImage(
+            f"a side of {max(gray.shape)} pixels is too long", expected=f"at most {LARGEST_SIDE} px wide and high"
         )
     return np.ascontiguousarray(to_eight_bit(gray))
 

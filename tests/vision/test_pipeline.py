@@ -110,6 +110,7 @@ def test_a_constant_image_has_no_candidates(value: int) -> None:
         np.full((4, 4), np.nan),
         np.full((4, 4), np.inf, np.float32),
         np.broadcast_to(np.uint8(0), (6400, 6400)),
+        np.broadcast_to(np.uint8(0), (3, 65_536)),
         [[1, 2], [3, 4]],
     ],
 )
