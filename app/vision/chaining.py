@@ -18,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.vision.edges import EdgeMap
-from app.vision.native.library import OUT_OF_MEMORY, kernels
+from app.vision.native.library import kernels
 from app.vision.native.records import address
+from app.vision.watch import counted
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,11 +54,11 @@ def find_runs(edges: EdgeMap, axis: int, low: float, high: float) -> Runs:
     count = len(points)
     rows, chain_ends = np.empty(count, np.int32), np.empty(count, np.int64)
     bounds, sizes = np.empty((count, 2), np.int64), np.zeros(2, np.int64)
-    found = kernels().cl_runs(
-        *(address(points), count, address(edges.maps[axis]), axis, width, height, low, high),
-        *(address(rows), address(chain_ends), address(bounds), address(sizes)),
+    found = counted(
+        kernels().cl_runs(
+            *(address(points), count, address(edges.maps[axis]), axis, width, height, low, high),
+            *(address(rows), address(chain_ends), address(bounds), address(sizes)),
+        )
     )
-    if found == OUT_OF_MEMORY:
-        raise MemoryError("no memory to chain edge points")
     chained, chains = sizes.tolist()
     return Runs(rows[:chained], chain_ends[:chains], bounds[:found])

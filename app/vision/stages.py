@@ -87,12 +87,12 @@ def run_stages(gray: NDArray[np.uint8], parameters: DetectionParameters, watch: 
     watch.tell(_FLIPPING_END)
     extend(merging, edges)
     note("extended", merging)
-    merging = without_short(merging, min(_LEAST_SHARE * parameters.min_length, _LEAST_EXTENDED))
+    least = _LEAST_SHARE * parameters.min_length
+    merging = without_short(merging, min(least, _LEAST_EXTENDED))
     merging = merge(merging, edges, FOLLOWING, watch.part(_FLIPPING_END, _SELECTION_BEGIN))
     joins_made["after extension"] = merging.made
     note("merged after extension", merging)
 
-    least = _LEAST_SHARE * parameters.min_length
     selection = select(merging, edges, least, watch.part(_SELECTION_BEGIN, 1))
     watch.tell(1)
     return Stages(edges, merging, joins_made, selection, alive)

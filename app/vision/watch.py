@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.errors import Cancelled
-from app.vision.native.library import CANCELLED, NO_ROOM, OUT_OF_MEMORY, Report
+from app.vision.native.library import OUT_OF_MEMORY, Report
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Watch:
             MemoryError: If the kernel gets no memory.
         """
         if self.progress is None and self.cancelled is None:
-            return _counted(kernel(*arguments, Report()))
+            return counted(kernel(*arguments, Report()))
         raised: list[BaseException] = []
 
         def report(share: float) -> int:
@@ -67,12 +67,17 @@ class Watch:
         status = kernel(*arguments, Report(report))
         if raised:
             raise raised[0]
-        return _counted(status)
+        return counted(status)
 
 
-def _counted(status: int) -> int:
+def counted(status: int) -> int:
+    """Return the count that a kernel returned.
+
+    Raises:
+        MemoryError: If the kernel got no memory.
+    """
     if status == OUT_OF_MEMORY:
         raise MemoryError("a kernel of the detector got no memory")
-    if status in (CANCELLED, NO_ROOM) or status < 0:
+    if status < 0:
         raise RuntimeError(f"a kernel of the detector failed with status {status}")
     return status

@@ -1,13 +1,13 @@
 /* Linking edge points into chains and splitting these into runs that an arc fits; see app/vision/chaining.py. */
 #include "kernels.h"
 
-enum { LONGEST_STEP = 3, SHORTEST_CHAIN = 5, POINTS_FOR_CURVATURE = 24 };
-#define LINK_A 0.7f
-#define LINK_B 0.3f
+enum { LONGEST_STEP = 3, SHORTEST_CHAIN = 5, SHORTEST_RUN = 6, POINTS_FOR_CURVATURE = 24 };
+/* px, of a point from where the mean of both slopes puts it: without a step, and for each */
+#define LARGEST_MISFIT 0.7f
+#define MISFIT_PER_STEP 0.3f
 #define LARGEST_TURN 1.0f
 #define TOLERANCE 0.7f
 #define LARGEST_CURVATURE (1.0 / 300)
-#define SHORTEST_RUN 6
 
 #define TAKEN -1.0f
 enum { WINDOW = 2, WIDEST = 2 * WINDOW + 1 };
@@ -52,7 +52,7 @@ static int points_ahead(const Field *field, const EdgePoint *from, int step, int
 /* The point `step` columns ahead of `from` that fits best and its misfit; notes how near each target's
  * nearest source is. */
 static int32_t best_target(const Field *field, const EdgePoint *from, int step, float *nearest_source, float *misfit) {
-    const float limit = LINK_A + LINK_B * (float)step;
+    const float limit = LARGEST_MISFIT + MISFIT_PER_STEP * (float)step;
     int32_t ahead[WIDEST], best = -1;
     float least = INFINITY;
     const int count = points_ahead(field, from, step, ahead);

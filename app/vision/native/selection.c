@@ -17,15 +17,90 @@ typedef struct {
     float contrast;    /* grey levels, mean difference of the two sides */
 } Finding;
 
+/* An arc that may become a segment, and where its samples are. */
 typedef struct {
-    double priority;
+    Walk walk;
     int32_t arc;
-} Rank;
+    int64_t begin;   /* of its samples among those of all */
+    double priority; /* length x share of hits */
+} Candidate;
+
+/* Samples of a candidate, first to last; none where last < first. */
+typedef struct {
+    int first, last;
+} Stretch;
 
 static int by_priority(const void *a, const void *b) {
-    const Rank *one = a, *two = b;
+    const Candidate *one = a, *two = b;
     if (one->priority != two->priority) return one->priority > two->priority ? -1 : 1;
     return one->arc < two->arc ? -1 : 1;
+}
+
+/* List the arcs of at least some length; returns their number, and in `total` that of their samples. */
+static int64_t list_candidates(const Arc *arcs, int64_t count, double least, Candidate *candidates, int64_t *total) {
+    int64_t listed = 0;
+    *total = 0;
+    for (int64_t i = 0; i < count; i++) {
+        if (arcs[i].high - arcs[i].low < least) continue;
+        const Walk walk = walk_along(&arcs[i], arcs[i].low, arcs[i].high);
+        if (walk_length(walk) < 1) continue;
+        candidates[listed++] = (Candidate){walk, (int32_t)i, *total, 0};
+        *total += walk_length(walk);
+    }
+    return listed;
+}
+
+static void sample_candidate(const Scene *scene, const Arc *arc, Candidate *candidate, Sample *samples) {
+    const int length = walk_length(candidate->walk);
+    int hits = 0;
+    sample_walk(scene, arc, candidate->walk, samples);
+    for (int i = 0; i < length; i++) {
+        if ((i < ROUNDED || i >= length - ROUNDED) && samples[i].state & LOOSE) samples[i].state |= HIT;
+        hits += samples[i].state & HIT;
+    }
+    candidate->priority = (arc->high - arc->low) * (double)hits / (double)length;
+}
+
+static int along_at(Walk walk, int sample) { return walk.first + sample * walk.step; }
+
+/* What of a candidate no better one covers, and paint it. */
+static Stretch take_free(const Canvas *canvas, const Arc *arc, Walk walk, const Sample *samples) {
+    const uint16_t direction = paint_direction(arc);
+    const double main = fabs(arc->tangent[walk.axis]);
+    const int length = walk_length(walk);
+    int free_samples = 0;
+    Stretch stretch = {0, -1};
+    for (int i = 0; i < length; i++) {
+        if (!is_free(canvas, walk.axis, along_at(walk, i), &samples[i], direction)) continue;
+        if (!free_samples++) stretch.first = i;
+        stretch.last = i;
+    }
+    if ((double)free_samples < (1 - LARGEST_SHARE) * (double)length) return (Stretch){0, -1};
+    for (int i = stretch.first; i <= stretch.last; i++)
+        if (samples[i].state & HIT) paint(canvas, walk.axis, along_at(walk, i), &samples[i], main, direction);
+    return stretch;
+}
+
+static Stretch between_hits(Stretch stretch, const Sample *samples) {
+    while (stretch.first <= stretch.last && !(samples[stretch.first].state & HIT)) stretch.first++;
+    while (stretch.last >= stretch.first && !(samples[stretch.last].state & HIT)) stretch.last--;
+    return stretch;
+}
+
+/* Write the points measured along a stretch that begins and ends with a hit; returns their number, or NO_ROOM. */
+static int64_t write_points(Stretch stretch, Walk walk, const Sample *samples, float *xy, int64_t room) {
+    int64_t written = 0;
+    for (int i = stretch.first; i <= stretch.last; i++) {
+        if (!(samples[i].state & HIT)) continue;
+        /* it may support the edge, but a point so far off is hardly its own; the ends tell how far it reaches */
+        if (fabsf(samples[i].distance) > FARTHEST && i > stretch.first && i < stretch.last) continue;
+        if (written >= room) return NO_ROOM;
+        const float along = (float)along_at(walk, i);
+        xy[2 * written] = walk.axis == ALONG_X ? along : samples[i].measured;
+        xy[2 * written + 1] = walk.axis == ALONG_X ? samples[i].measured : along;
+        written++;
+    }
+    return written;
 }
 
 static Finding measure(const Arc *arc, const Sample *samples, int count) {
@@ -63,93 +138,51 @@ static Finding measure(const Arc *arc, const Sample *samples, int count) {
  * OUT_OF_MEMORY, CANCELLED, or NO_ROOM where that for points is too small. */
 EXPORT int64_t cl_select(const Scene *scene, const Arc *arcs, int64_t count, double least, double width,
                          Finding *findings, float *xy, int64_t room, Report report) {
-    const size_t pixels = (size_t)scene->width * scene->height, arcs_room = (size_t)(count ? count : 1);
-    Rank *ranks = malloc(arcs_room * sizeof(Rank));
     /* fresh memory is zero already: only what gets painted is touched */
-    uint16_t *canvas_pixels = calloc(pixels, sizeof(uint16_t));
-    int64_t *begins = malloc((arcs_room + 1) * sizeof(int64_t));
+    uint16_t *pixels = calloc((size_t)scene->width * scene->height, sizeof(uint16_t));
+    Candidate *candidates = malloc((size_t)(count ? count : 1) * sizeof(Candidate));
     Sample *samples = NULL;
     int64_t found = OUT_OF_MEMORY, used = 0, total = 0;
-    if (!ranks || !canvas_pixels || !begins) goto end;
-    for (int64_t i = 0; i < count; i++) {
-        begins[i] = total;
-        if (arcs[i].high - arcs[i].low >= least) total += walk_length(walk_along(&arcs[i], arcs[i].low, arcs[i].high));
-    }
-    begins[count] = total;
+    if (!pixels || !candidates) goto end;
+    const int64_t listed = list_candidates(arcs, count, least, candidates, &total);
     samples = malloc((size_t)(total ? total : 1) * sizeof(Sample));
     if (!samples) goto end;
-    int64_t ranked = 0;
-    for (int64_t i = 0; i < count; i++) {
-        if (i % REPORT_EVERY == 0 && is_cancelled(report, i, 2 * count)) {
+    for (int64_t i = 0; i < listed; i++) {
+        if (i % REPORT_EVERY == 0 && is_cancelled(report, i, 2 * listed)) {
             found = CANCELLED;
             goto end;
         }
-        const int64_t own = begins[i + 1] - begins[i];
-        if (own <= 0) continue;
-        const Walk walk = walk_along(&arcs[i], arcs[i].low, arcs[i].high);
-        int64_t hits = 0;
-        sample_walk(scene, &arcs[i], walk, samples + begins[i]);
-        for (int64_t j = 0; j < own; j++) {
-            Sample *sample = &samples[begins[i] + j];
-            if ((j < ROUNDED || j >= own - ROUNDED) && sample->state & LOOSE) sample->state |= HIT;
-            hits += sample->state & HIT;
-        }
-        ranks[ranked++] = (Rank){(arcs[i].high - arcs[i].low) * (double)hits / (double)own, (int32_t)i};
+        sample_candidate(scene, &arcs[candidates[i].arc], &candidates[i], samples + candidates[i].begin);
     }
-    qsort(ranks, (size_t)ranked, sizeof(Rank), by_priority);
-    const Canvas canvas = {canvas_pixels, scene->width, scene->height, width};
+    qsort(candidates, (size_t)listed, sizeof(Candidate), by_priority);
+    const Canvas canvas = {pixels, scene->width, scene->height, width};
     found = 0;
-    for (int64_t r = 0; r < ranked; r++) {
-        if (r % REPORT_EVERY == 0 && is_cancelled(report, ranked + r, 2 * ranked)) {
+    for (int64_t i = 0; i < listed; i++) {
+        if (i % REPORT_EVERY == 0 && is_cancelled(report, listed + i, 2 * listed)) {
             found = CANCELLED;
             goto end;
         }
-        const int32_t index = ranks[r].arc;
-        const Arc *arc = &arcs[index];
-        const Sample *own = samples + begins[index];
-        const int64_t length = begins[index + 1] - begins[index];
-        const Walk walk = walk_along(arc, arc->low, arc->high);
-        const int axis = walk.axis;
-        const uint16_t direction = paint_direction(arc);
-        const double main = fabs(arc->tangent[axis]);
-        int64_t free_samples = 0, first = -1, last = -1;
-        for (int64_t j = 0; j < length; j++) {
-            if (!is_free(&canvas, axis, walk.first + (int)j * walk.step, &own[j], direction)) continue;
-            free_samples++;
-            if (first < 0) first = j;
-            last = j;
+        const Walk walk = candidates[i].walk;
+        const Arc *arc = &arcs[candidates[i].arc];
+        const Sample *own = samples + candidates[i].begin;
+        const Stretch stretch = between_hits(take_free(&canvas, arc, walk, own), own);
+        if (stretch.last - stretch.first < 1) continue;
+        const int64_t written = write_points(stretch, walk, own, xy + 2 * used, room - used);
+        if (written < 0) {
+            found = written;
+            goto end;
         }
-        if (first < 0 || (double)free_samples < (1 - LARGEST_SHARE) * (double)length) continue;
-        for (int64_t j = first; j <= last; j++)
-            if (own[j].state & HIT) paint(&canvas, axis, walk.first + (int)j * walk.step, &own[j], main, direction);
-        while (first <= last && !(own[first].state & HIT)) first++;
-        while (last >= first && !(own[last].state & HIT)) last--;
-        if (last - first < 1) continue;
-        Finding finding = measure(arc, own + first, (int)(last - first + 1));
-        finding.arc = index;
+        Finding finding = measure(arc, own + stretch.first, stretch.last - stretch.first + 1);
+        finding.arc = candidates[i].arc;
         finding.first = (int32_t)used;
-        for (int64_t j = first; j <= last; j++) {
-            if (!(own[j].state & HIT)) continue;
-            /* it may support the edge, but a point so far off is hardly its own; the ends tell how far it reaches */
-            if (fabsf(own[j].distance) > FARTHEST && j > first && j < last) continue;
-            if (used >= room) {
-                found = NO_ROOM;
-                goto end;
-            }
-            const float along = (float)(walk.first + (int)j * walk.step);
-            xy[2 * used] = axis == ALONG_X ? along : own[j].measured;
-            xy[2 * used + 1] = axis == ALONG_X ? own[j].measured : along;
-            used++;
-        }
-        finding.last = (int32_t)used;
+        finding.last = (int32_t)(used += written);
         const float *start = xy + 2 * finding.first, *stop = xy + 2 * (finding.last - 1);
         finding.chord = hypotf(stop[0] - start[0], stop[1] - start[1]);
         findings[found++] = finding;
     }
 end:
-    free(ranks);
-    free(canvas_pixels);
-    free(begins);
+    free(pixels);
+    free(candidates);
     free(samples);
     return found;
 }

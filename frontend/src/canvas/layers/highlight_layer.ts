@@ -5,7 +5,7 @@ import type { Scene } from "../scene";
 import { lineStyle, SELECTION, styleName } from "../style";
 import { toScreen, type Viewport } from "../viewport";
 import type { CandidateLook } from "./candidate_layer";
-import { tracePolyline } from "./surface";
+import { strokePath, tracePolyline } from "./surface";
 
 export function drawHighlights(
   context: CanvasRenderingContext2D,
@@ -29,10 +29,10 @@ function drawHovered(
   const path = pathOf(scene, viewport, index);
   const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
   // Without knobs at its ends and thinner than the selection, and like that with a dark rim on bright pixels.
-  stroke(context, path, SELECTION.casing, style.width + 7.6);
-  stroke(context, path, SELECTION.halo, style.width + 5);
-  stroke(context, path, SELECTION.casing, style.width + 2);
-  stroke(context, path, style.colour, style.width + 0.6, style.dash);
+  strokePath(context, path, SELECTION.casing, style.width + 7.6);
+  strokePath(context, path, SELECTION.halo, style.width + 5);
+  strokePath(context, path, SELECTION.casing, style.width + 2);
+  strokePath(context, path, style.colour, style.width + 0.6, style.dash);
 }
 
 function drawSelected(
@@ -44,10 +44,10 @@ function drawSelected(
 ): void {
   const path = pathOf(scene, viewport, index);
   const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
-  stroke(context, path, SELECTION.casing, SELECTION.width + 9);
-  stroke(context, path, SELECTION.halo, SELECTION.width + 5.6);
-  stroke(context, path, SELECTION.casing, SELECTION.width + 1.8);
-  stroke(context, path, style.colour, SELECTION.width, style.dash);
+  strokePath(context, path, SELECTION.casing, SELECTION.width + 9);
+  strokePath(context, path, SELECTION.halo, SELECTION.width + 5.6);
+  strokePath(context, path, SELECTION.casing, SELECTION.width + 1.8);
+  strokePath(context, path, style.colour, SELECTION.width, style.dash);
   drawEnds(context, scene, viewport, index, style.colour);
 }
 
@@ -81,19 +81,4 @@ function pathOf(scene: Scene, viewport: Viewport, index: number): Path2D {
   const path = new Path2D();
   tracePolyline(path, coordinates, at(offsets, index), at(offsets, index + 1), viewport);
   return path;
-}
-
-function stroke(
-  context: CanvasRenderingContext2D,
-  path: Path2D,
-  colour: string,
-  width: number,
-  dash: readonly number[] = [],
-): void {
-  context.lineJoin = "round";
-  context.lineCap = dash.length > 0 ? "butt" : "round";
-  context.setLineDash([...dash]);
-  context.lineWidth = width;
-  context.strokeStyle = colour;
-  context.stroke(path);
 }

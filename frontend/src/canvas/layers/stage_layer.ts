@@ -5,7 +5,7 @@ import type { StageTrace, Stretch } from "../stage_trace";
 import { middleOf } from "../stage_trace";
 import { SELECTION, STAGES } from "../style";
 import { toScreen, type Viewport } from "../viewport";
-import { tracePolyline } from "./surface";
+import { strokePath, tracePolyline } from "./surface";
 
 /** Points that the direction at an end is read off: single ones are too rough. */
 const DIRECTION_POINTS = 8;
@@ -22,15 +22,14 @@ export function drawStages(
   const { rim, bed, pieces, gap, added } = STAGES;
   const path = (parts: readonly Stretch[]) => pathOf(parts, viewport);
   context.save();
-  context.lineJoin = "round";
   // A bright rim for dark pixels around a dark bed for bright ones: what lies on it is seen on any image.
-  stroke(context, path([trace.whole]), rim.colour, rim.width, [], "round");
-  stroke(context, path([trace.whole]), bed.colour, bed.width, [], "round");
-  stroke(context, path(trace.gaps), gap.colour, gap.width, gap.dash);
-  stroke(context, path(trace.added), added.colour, added.width, added.dash, "round");
+  strokePath(context, path([trace.whole]), rim.colour, rim.width);
+  strokePath(context, path([trace.whole]), bed.colour, bed.width);
+  strokePath(context, path(trace.gaps), gap.colour, gap.width, gap.dash);
+  strokePath(context, path(trace.added), added.colour, added.width, added.dash, "round");
   pieces.colours.forEach((colour, turn) => {
     const ofColour = trace.pieces.filter((_, piece) => piece % pieces.colours.length === turn);
-    stroke(context, path(ofColour), colour, pieces.width);
+    strokePath(context, path(ofColour), colour, pieces.width, [], "butt");
   });
   drawTicks(context, trace.pieces, viewport);
   const marked = markedGap === null ? undefined : trace.gaps[markedGap];
@@ -59,8 +58,8 @@ function drawTicks(context: CanvasRenderingContext2D, pieces: readonly Stretch[]
       path.lineTo(place.x + across.x, place.y + across.y);
     }
   }
-  stroke(context, path, SELECTION.casing, tick.width + 1.8);
-  stroke(context, path, tick.colour, tick.width);
+  strokePath(context, path, SELECTION.casing, tick.width + 1.8, [], "butt");
+  strokePath(context, path, tick.colour, tick.width, [], "butt");
 }
 
 /** A ring around a gap: many are shorter than a pixel of the screen. */
@@ -72,27 +71,12 @@ function drawMark(context: CanvasRenderingContext2D, gap: Stretch, viewport: Vie
   const { x, y } = toScreen(viewport, middle.x, middle.y);
   const path = new Path2D();
   path.arc(x, y, Math.max(mark.radius, length / 2 + 6), 0, 2 * Math.PI);
-  stroke(context, path, SELECTION.casing, mark.width + 3);
-  stroke(context, path, mark.colour, mark.width);
+  strokePath(context, path, SELECTION.casing, mark.width + 3, [], "butt");
+  strokePath(context, path, mark.colour, mark.width, [], "butt");
 }
 
 function pathOf(parts: readonly Stretch[], viewport: Viewport): Path2D {
   const path = new Path2D();
   for (const part of parts) tracePolyline(path, part, 0, part.length / 2, viewport);
   return path;
-}
-
-function stroke(
-  context: CanvasRenderingContext2D,
-  path: Path2D,
-  colour: string,
-  width: number,
-  dash: readonly number[] = [],
-  cap: CanvasLineCap = "butt",
-): void {
-  context.lineCap = cap;
-  context.setLineDash([...dash]);
-  context.lineWidth = width;
-  context.strokeStyle = colour;
-  context.stroke(path);
 }

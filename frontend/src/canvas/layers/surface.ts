@@ -53,3 +53,20 @@ export function tracePolyline(
     );
   }
 }
+
+/** Strokes a path; dashes end bluntly and whole lines round, unless told otherwise. */
+export function strokePath(
+  context: CanvasRenderingContext2D,
+  path: Path2D,
+  colour: string,
+  width: number,
+  dash: readonly number[] = [],
+  cap: CanvasLineCap = dash.length > 0 ? "butt" : "round",
+): void {
+  context.lineJoin = "round";
+  context.lineCap = cap;
+  context.setLineDash([...dash]);
+  context.lineWidth = width;
+  context.strokeStyle = colour;
+  context.stroke(path);
+}
