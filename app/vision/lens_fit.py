@@ -16,7 +16,7 @@ from app.vision import division
 from app.vision.bins import BinnedSegments
 from app.vision.division import Division
 from app.vision.lens_evidence import SCAN, K1Posterior, k1_posterior, structures
-from app.vision.lens_hierarchy import LensPosterior, lens_posterior, prior_sds
+from app.vision.lens_hierarchy import LensPosterior, higher_sds, lens_posterior
 from app.vision.lens_mixture import Mixture, equations, mixture_of, responsibilities, with_noise_of
 from app.vision.sampson import Bend, amplitudes_over, bend
 
@@ -83,7 +83,7 @@ def fit_lens(binned: BinnedSegments, width: int, height: int) -> LensFit:
     left = bend(binned, DIVISION, parameters, slopes=range(5))
     probability, _ = responsibilities(left, mixture)
     # of the other parameters no more is known than that they are those of a lens of the kind
-    variance = np.diag([scan.sd**2, *(prior_sds(scan.mean)[0, 1:] ** 2)])
+    variance = np.diag([scan.sd**2, *(higher_sds(scan.mean)[0] ** 2)])
     posterior = LensPosterior(np.ones(1), parameters[None], variance[None])
     return LensFit(parameters, False, mixture, probability, left, scan, posterior, structure)
 

@@ -109,10 +109,7 @@ def not_merged(records: NDArray[Any]) -> Merging:
 
 def without_short(merging: Merging, least: float) -> Merging:
     """Leave out the arcs shorter than ``least`` px; the memory of the state given is used for the result."""
-    arcs = merging.arcs
-    long = arcs[arcs["high"] - arcs["low"] >= least]
-    merging.records[: len(long)] = long
-    return replace(merging, count=len(long))
+    return replace(merging, count=kernels().cl_leave_out_short(address(merging.records), merging.count, least))
 
 
 def merge(merging: Merging, edges: EdgeMap, rule: MergeRule, watch: Watch) -> Merging:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.vision.arcs import ends
 from app.vision.edges import EdgeMap
 from app.vision.merging import Merging
 from app.vision.native.library import kernels
@@ -51,12 +50,8 @@ def select(merging: Merging, edges: EdgeMap, least: float, watch: Watch) -> Sele
     Raises:
         Cancelled: If that is wished.
     """
-    arcs = merging.arcs
-    considered = arcs[arcs["high"] - arcs["low"] >= least]
-    # a walk along an arc has a point at most per column (row) that it passes, both ends included
-    span = np.abs(np.diff(ends(considered), axis=1)[:, 0])
-    room = int((np.ceil(np.maximum(span[:, 0], span[:, 1])) + 2).sum())
-    points, findings = np.empty((room, 2), np.float32), np.empty(len(considered), FINDING)
+    room = kernels().cl_count_samples(address(merging.records), merging.count, least)
+    points, findings = np.empty((room, 2), np.float32), np.empty(merging.count, FINDING)
     found = watch.call(
         kernels().cl_select,
         *(edges.scene, address(merging.records), merging.count, least, PAINT_WIDTH),

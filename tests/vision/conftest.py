@@ -11,14 +11,19 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from hypothesis import settings
 from numpy.typing import NDArray
 
 from app.vision.brown import Brown
-from app.vision.edges import EdgeMap
+from app.vision.edges import EdgeMap, no_places
 from app.vision.frame import center_of
 from app.vision.native.library import kernels
-from app.vision.native.records import ARC, GRADIENT_SCALE, POINT, Scene, address
+from app.vision.native.records import ARC, GRADIENT_SCALE, MARGIN, POINT, Scene, address
 from app.vision.segments import Segments
+
+# a machine that does other things meanwhile must not fail a property
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 SegmentsThrough = Callable[..., Segments]
 
@@ -133,14 +138,20 @@ def edges_of() -> EdgesOf:
         norm: Any = 90.0,
         gradients: NDArray[Any] | None = None,
     ) -> EdgeMap:
-        """Points in columns, at sub-pixel rows; ``gradients`` ``(2, H, W)`` in grey levels."""
+        """Points in columns, at sub-pixel rows, put in this order; ``gradients`` ``(2, H, W)`` in grey levels."""
         points = np.zeros(len(columns), POINT)
         points["along"], points["across"], points["slope"], points["norm"] = columns, rows, slope, norm
-        maps = np.full((2, *shape), -1, np.int32)
-        maps[0][np.rint(np.asarray(rows, float)).astype(int), np.asarray(columns, int)] = np.arange(len(columns))
+        points = points[np.lexsort((points["across"], points["along"]))]
+        height, width = shape
+        places = no_places(width, height), no_places(height, width)
+        occupied = np.zeros((len(places[0].occupied), 8 * places[0].occupied.shape[1]), np.uint8)
+        occupied[points["along"], MARGIN + np.rint(points["across"]).astype(int)] = 1
+        places[0].occupied[:] = np.packbits(occupied, axis=1, bitorder="little")
+        counts = occupied.reshape(-1, 8).sum(axis=1)
+        places[0].before.ravel()[1:] = np.cumsum(counts)[:-1]
         field = np.zeros((2, *shape)) if gradients is None else gradients
         steps = np.rint(field * GRADIENT_SCALE).astype(np.int16)
-        return EdgeMap(np.zeros(shape, np.uint8), steps, maps, (points, np.zeros(0, POINT)))
+        return EdgeMap(np.zeros(shape, np.uint8), steps, (points, np.zeros(0, POINT)), places)
 
     return make
 

@@ -11,7 +11,7 @@ from scipy import ndimage
 
 from app.vision.edges import POSITION_SIGMA, EdgeMap, edge_map
 from app.vision.equalisation import LEVELS, Equalisation, equalisation
-from app.vision.native.records import GRADIENT_SCALE
+from app.vision.native.records import GRADIENT_SCALE, MARGIN
 from app.vision.watch import Watch
 
 
@@ -47,6 +47,11 @@ def positions(edges: EdgeMap, axis: int) -> np.ndarray:
     points = edges.points[axis]
     place = np.stack([points["along"].astype(float), points["across"].astype(float)], axis=1)
     return place if axis == 0 else place[:, ::-1]
+
+
+def occupied(edges: EdgeMap, axis: int) -> np.ndarray:
+    """Whether a pixel has a point: columns in the pass along x, rows in that along y, with margins."""
+    return np.unpackbits(edges.places[axis].occupied, axis=1, bitorder="little").astype(bool)
 
 
 def errors(edges: EdgeMap, angle: float, offset: float) -> np.ndarray:
@@ -88,18 +93,17 @@ def test_the_threshold_must_be_exceeded() -> None:
 
 
 @given(hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=3, max_side=24)))
-def test_points_and_maps_agree(image: np.ndarray) -> None:
+def test_points_and_places_agree(image: np.ndarray) -> None:
     edges = find(image, weakest=5)
     for axis in (0, 1):
-        index, points = edges.maps[axis], edges.points[axis]
-        y, x = np.nonzero(index >= 0)
-        assert sorted(index[y, x]) == list(range(len(points)))
-        along, across = (x, y) if axis == 0 else (y, x)
-        own = points[index[y, x]]
-        assert (own["along"] == along).all()
-        assert (np.abs(own["across"] - across) <= 0.501).all()
-        assert np.isfinite(own["slope"]).all()
+        points, pixels = edges.points[axis], occupied(edges, axis)
+        along, across = np.nonzero(pixels)
+        assert np.array_equal(points["along"], along)
+        assert (np.abs(points["across"] - (across - MARGIN)) <= 0.501).all()
+        assert np.isfinite(points["slope"]).all()
         assert len(points) <= (image.shape[axis == 1] + 1) // 2 * image.shape[axis == 0]
+        counts = pixels.reshape(-1, 8).sum(axis=1)
+        assert np.array_equal(edges.places[axis].before.ravel(), np.cumsum(counts) - counts)
 
 
 def test_of_a_tie_one_pixel_is_taken() -> None:
@@ -165,7 +169,8 @@ def test_strips_leave_no_seam() -> None:
     image = np.random.default_rng(8).integers(0, 256, (300, 1400)).astype(np.uint8)
     whole, left = find(image), find(image[:, :200])
     assert np.array_equal(whole.gradients[:, :, :195], left.gradients[:, :, :195])
-    assert np.array_equal(whole.maps[..., :195] >= 0, left.maps[..., :195] >= 0)
+    assert np.array_equal(occupied(whole, 0)[:195], occupied(left, 0)[:195])
+    assert np.array_equal(occupied(whole, 1)[:, : MARGIN + 195], occupied(left, 1)[:, : MARGIN + 195])
 
 
 def test_a_photo_is_equalised_while_its_edges_are_found() -> None:

@@ -7,13 +7,13 @@ import pytest
 
 from app.vision.bins import bin_segments
 from app.vision.lens_evidence import (
-    BARREL_SD,
+    KINDS,
     LYING_SD,
-    PINCUSHION_SD,
     SCAN,
     TEMPERATURE,
     UPRIGHT_SD,
     k1_posterior,
+    k1_prior,
     structure_sd,
     structures,
     sum_structures,
@@ -30,15 +30,28 @@ def says(k1: float, sd: float, count: int = 1) -> np.ndarray:
 
 def test_no_evidence_leaves_the_prior():
     known = k1_posterior(np.zeros((len(SCAN), 3)), np.array([0, 1, 5]))
-    prior = np.exp(-0.5 * (SCAN / np.where(SCAN < 0, PINCUSHION_SD, BARREL_SD)) ** 2)
-    assert known.probability == pytest.approx(prior / prior.sum())
+    assert known.probability == pytest.approx(k1_prior())
+    assert known.probability.sum() == pytest.approx(1)
+
+
+def test_the_prior_holds_each_kind_of_lens_by_its_share():
+    little, wide = KINDS
+    assert k1_prior() @ SCAN == pytest.approx(little.share * little.mean + wide.share * wide.mean, abs=0.002)
+    assert k1_prior()[wide.mean < SCAN].sum() == pytest.approx(wide.share / 2, rel=0.15)
+
+
+@pytest.mark.parametrize("k1", [0.0, 0.18])
+def test_a_lens_of_either_kind_is_not_drawn_towards_the_other(k1: float):
+    losses = says(k1, 0.03, 4) * TEMPERATURE
+    assert k1_posterior(losses, np.array([4, 5, 6, 7])).mean == pytest.approx(k1, abs=0.003)
 
 
 @pytest.mark.parametrize(("structure", "sd"), [(LYING, LYING_SD), (UPRIGHT, UPRIGHT_SD)])
 def test_one_structure_never_tells_more_than_its_own_bend_allows(structure: int, sd: float):
     few, many = (k1_posterior(says(0.1, 0.02, count), np.full(count, structure)) for count in (20, 2000))
     assert many.sd == pytest.approx(few.sd, rel=0.05)
-    assert many.sd > 0.7 * (sd**-2 + BARREL_SD**-2) ** -0.5
+    widest = max(kind.sd for kind in KINDS)
+    assert many.sd > 0.7 * (sd**-2 + widest**-2) ** -0.5
 
 
 def test_structures_that_agree_tell_more_than_one():

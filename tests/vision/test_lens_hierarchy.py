@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.vision.lens_evidence import UPRIGHT_SD
-from app.vision.lens_hierarchy import BENDING, LensPosterior, lens_posterior, prior_sds
+from app.vision.lens_hierarchy import BENDING, LensPosterior, higher_sds, lens_posterior, priors
 from app.vision.lens_mixture import Equations
 
 HERE = 0.1 * np.eye(5)[0]
@@ -31,7 +31,7 @@ def spread(posterior: LensPosterior) -> float:
 
 
 def bending(posterior: LensPosterior) -> float:
-    return float(posterior.weight @ np.repeat(BENDING, 2))
+    return float(posterior.weight @ np.repeat(BENDING, len(priors(0.1).weight)))
 
 
 def test_structures_that_agree_to_their_noise_tell_more_than_those_that_differ():
@@ -56,9 +56,10 @@ def test_a_structure_far_astray_is_left_out():
 
 def test_nothing_said_leaves_the_prior():
     nothing = says(np.zeros(3), 1e9)
-    posterior = known_of(nothing)
-    assert posterior.mean == pytest.approx(np.zeros(5), abs=1e-9)
-    for covariance, sds in zip(posterior.covariance[:2], prior_sds(0.1), strict=True):
+    posterior, laws = known_of(nothing), priors(0.1)
+    assert laws.weight.sum() == pytest.approx(1)
+    assert posterior.mean == pytest.approx(laws.weight @ laws.mean, abs=1e-9)
+    for covariance, sds in zip(posterior.covariance[: len(laws.sd)], laws.sd, strict=True):
         assert np.sqrt(np.diag(covariance)) == pytest.approx(sds)
 
 
@@ -75,7 +76,7 @@ def test_doubt_about_which_segments_are_straight_widens():
 
 
 def test_a_wider_lens_may_have_larger_higher_coefficients():
-    narrow, wide = prior_sds(0.02), prior_sds(0.3)
-    assert (narrow[:, 1:3] < wide[:, 1:3]).all()
-    assert (narrow[0, 1:3] < narrow[1, 1:3]).all()
-    assert prior_sds(-0.1)[0, 0] < prior_sds(0.1)[0, 0]
+    narrow, wide = higher_sds(0.02), higher_sds(0.3)
+    assert (narrow[:, :2] < wide[:, :2]).all()
+    assert (narrow[0, :2] < narrow[1, :2]).all()
+    assert (narrow[:, 2:] == wide[:, 2:]).all()

@@ -93,11 +93,11 @@ def test_the_parts_give_what_the_whole_does():
 
 def test_a_shared_lens_judges_each_image(segments_through):
     lens = Brown(640, 480, (319.5, 239.5), 400.0, (0.2, 0.0, 0.0))
-    many, few = segments_through(lens, 120), segments_through(lens, 4, bent=0.5, seed=5)
+    many, few = segments_through(lens, 120), segments_through(lens, 2, bent=0.5, seed=5)
     detections = [Detection(640, 480, segments, segments, 0.1) for segments in (many, few)]
     joint = assemble(detections)
     assert joint.cameras[0].estimate.accepted
-    assert (joint.images[1].straightness >= 0.5).tolist() == [False, False, True, True]
+    assert (joint.images[1].straightness >= 0.5).tolist() == [False, True]
     alone = assemble(detections, camera="per-image")
     assert not alone.cameras[1].estimate.accepted
     with pytest.raises(InvalidInput, match="different size"):

@@ -15,7 +15,7 @@ from app.vision.parameters import DetectionParameters
 from app.vision.pipeline import detect
 from app.vision.prelabel import prelabel
 
-MOST_BYTES_PER_PIXEL = 40
+MOST_BYTES_PER_PIXEL = 30
 MEASURE = """
 import json
 import numpy as np
@@ -122,4 +122,4 @@ def test_memory_stays_bounded_per_pixel() -> None:
     done = subprocess.run([sys.executable, "-c", MEASURE], capture_output=True, text=True, cwd=root, check=True)
     measured = json.loads(done.stdout)
     assert measured["segments"] > 10
-    assert 10 < measured["bytes"] <= MOST_BYTES_PER_PIXEL
+    assert 5 < measured["bytes"] <= MOST_BYTES_PER_PIXEL

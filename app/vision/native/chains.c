@@ -1,5 +1,6 @@
 /* Linking edge points into chains and splitting these into runs that an arc fits; see app/vision/chaining.py. */
 #include "kernels.h"
+#include "places.h"
 
 enum { LONGEST_STEP = 3, SHORTEST_CHAIN = 5, SHORTEST_RUN = 6, POINTS_FOR_CURVATURE = 24 };
 /* px, of a point from where the mean of both slopes puts it: without a step, and for each */
@@ -10,103 +11,149 @@ enum { LONGEST_STEP = 3, SHORTEST_CHAIN = 5, SHORTEST_RUN = 6, POINTS_FOR_CURVAT
 #define LARGEST_CURVATURE (1.0 / 300)
 
 #define TAKEN -1.0f
-enum { WINDOW = 2, WIDEST = 2 * WINDOW + 1 };
+/* RING: lines whose points may still be linked to the next one, a power of two */
+enum { WINDOW = 2, WIDEST = 2 * WINDOW + 1, LIKELY = 2, RING = 4 };
 
+/* The points of one pass; those up to `low` are left out. */
 typedef struct {
     const EdgePoint *points;
-    const int32_t *map;
-    int along_size, across_size;           /* of the image, px */
-    ptrdiff_t along_stride, across_stride; /* of the map */
+    Places places;
+    int lines;
     float low;
 } Field;
 
-static Field field_of(const EdgePoint *points, const int32_t *map, int axis, int width, int height, float low) {
-    return axis == ALONG_X ? (Field){points, map, width, height, 1, width, low}
-                           : (Field){points, map, height, width, width, 1, low};
-}
-
-/* The points `step` columns ahead of one within two pixels of where it points: wide enough for every pair that both
- * slopes allow, or the direction of linking would matter. Returns their number. */
-static int points_ahead(const Field *field, const EdgePoint *from, int step, int32_t ahead[WIDEST]) {
-    const int along = from->along + step, expected = (int)lrintf(from->across + from->slope * (float)step);
-    if (along >= field->along_size) return 0;
-    const int32_t *place = field->map + along * field->along_stride + (expected - WINDOW) * field->across_stride;
-    int count = 0;
-    if (expected >= WINDOW && expected < field->across_size - WINDOW) {
-        /* every pixel is written: whether there is a point cannot be guessed */
-        for (int i = 0; i < WIDEST; i++) {
-            ahead[count] = place[i * field->across_stride];
-            count += ahead[count] >= 0;
-        }
-    } else {
-        for (int i = 0; i < WIDEST; i++) {
-            const int across = expected - WINDOW + i;
-            if (across < 0 || across >= field->across_size) continue;
-            ahead[count] = place[i * field->across_stride];
-            count += ahead[count] >= 0;
-        }
-    }
-    return count;
-}
-
-/* The point `step` columns ahead of `from` that fits best and its misfit; notes how near each target's
- * nearest source is. */
-static int32_t best_target(const Field *field, const EdgePoint *from, int step, float *nearest_source, float *misfit) {
-    const float limit = LARGEST_MISFIT + MISFIT_PER_STEP * (float)step;
-    int32_t ahead[WIDEST], best = -1;
-    float least = INFINITY;
-    const int count = points_ahead(field, from, step, ahead);
-    for (int i = 0; i < count; i++) {
-        const int32_t target = ahead[i];
-        const EdgePoint *to = &field->points[target];
-        const float slope = 0.5f * (from->slope + to->slope);
-        const float distance = fabsf(to->across - from->across - slope * (float)step);
-        const float nearest = nearest_source[target];
-        const int fits = (nearest >= 0) & ((to->norm > 0) == (from->norm > 0)) &
-                         (fabsf(to->slope - from->slope) <= LARGEST_TURN) & (distance <= limit);
-        if (!fits) continue;
-        if (distance < nearest) nearest_source[target] = distance;
-        if (distance < least) least = distance, best = target;
-    }
-    *misfit = least;
-    return best;
-}
-
+/* What linking has found so far, and the room it works in. */
 typedef struct {
-    int32_t *following, *preceding; /* -1 where there is none */
-    int32_t *loose, *target;        /* points without a following one, and the best for each */
+    int32_t *following; /* of each point, -1 where there is none */
+    uint8_t *preceded;  /* whether a point follows another */
+    /* of the latest lines, the points without a following one */
+    int32_t *loose[RING];
+    int count[RING];
+    /* of the loose points of one line: the best in the line looked at, -1 where there is none, and its misfit */
+    int32_t *best;
+    float *least;
+    /* of the points of the line looked at, and of one more that isn't there: misfit of the nearest source; TAKEN where
+     * none may be */
+    float *nearest;
+    /* pairs of a loose point, by its number in its line, and one that may follow it, and their misfit */
+    int32_t *source, *target;
     float *misfit;
-    float *nearest; /* misfit of each point's nearest source; TAKEN where there is a preceding one, or none may be */
 } Links;
 
-/* Link every point to the one that follows it, one to three columns on, where each is the other's nearest. */
-static void link_points(const Field *field, int64_t count, Links links) {
-    memset(links.following, 0xff, (size_t)count * sizeof(int32_t));
-    memset(links.preceding, 0xff, (size_t)count * sizeof(int32_t));
-    int64_t loose = 0;
-    for (int64_t i = 0; i < count; i++) {
-        const int strong = fabsf(field->points[i].norm) > field->low;
-        links.nearest[i] = strong ? INFINITY : TAKEN;
-        links.loose[loose] = (int32_t)i;
-        loose += strong;
+static int32_t first_of_line(const Field *field, int line) {
+    return field->places.before[(size_t)line * field->places.line_bytes];
+}
+
+/* The loops of linking branch on nothing that depends on a point, as none of it can be guessed: what there may be is
+ * written in any case, and counted if it is there. */
+
+/* List all points of a line within two pixels of where loose points point: wide enough for every pair that both slopes
+ * allow, or the direction of linking would matter. Returns the number of pairs. */
+static int list_pairs(const Field *field, int line, int step, const int32_t *loose, int count, int32_t *source,
+                      int32_t *target) {
+    int pairs = 0;
+    for (int i = 0; i < count; i++) {
+        const EdgePoint *from = &field->points[loose[i]];
+        const int expected = (int)lrintf(from->across + from->slope * (float)step);
+        const Window window = window_at(&field->places, line, expected - WINDOW, WIDEST);
+        const int found = bits_set[window.bits];
+        for (int k = 0; k < LIKELY || k < found; k++) source[pairs + k] = i, target[pairs + k] = window.first + k;
+        pairs += found;
     }
-    for (int step = 1; step <= LONGEST_STEP; step++) {
-        for (int64_t i = 0; i < loose; i++)
-            links.target[i] = best_target(field, &field->points[links.loose[i]], step, links.nearest, &links.misfit[i]);
-        int64_t left = 0;
-        for (int64_t i = 0; i < loose; i++) {
-            const int32_t from = links.loose[i], to = links.target[i];
-            if (to >= 0 && links.misfit[i] == links.nearest[to]) {
-                links.following[from] = to;
-                links.preceding[to] = from;
-                links.nearest[to] = TAKEN;
-            } else {
-                links.loose[left++] = from;
-            }
+    return pairs;
+}
+
+/* Leave the pairs that fit. Returns their number. */
+static int keep_fitting(const Field *field, int step, const int32_t *loose, int32_t first, int count, Links *links) {
+    const float limit = LARGEST_MISFIT + MISFIT_PER_STEP * (float)step;
+    int32_t *source = links->source, *target = links->target;
+    float *restrict misfits = links->misfit;
+    const float *nearest = links->nearest;
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        const int32_t one = source[i], other = target[i];
+        const EdgePoint *from = &field->points[loose[one]], *to = &field->points[other];
+        const float slope = 0.5f * (from->slope + to->slope);
+        const float misfit = fabsf(to->across - from->across - slope * (float)step);
+        source[kept] = one, target[kept] = other - first, misfits[kept] = misfit;
+        kept += (nearest[other - first] >= 0) & ((to->norm > 0) == (from->norm > 0)) &
+                (fabsf(to->slope - from->slope) <= LARGEST_TURN) & (misfit <= limit);
+    }
+    return kept;
+}
+
+/* Link loose points to those of a line `step` lines on, where each is the other's nearest. */
+static void link_line(const Field *field, int line, int step, Links *links) {
+    const int32_t first = first_of_line(field, line), size = first_of_line(field, line + 1) - first;
+    const int number = (line - step) % RING, count = links->count[number];
+    int32_t *loose = links->loose[number], *best = links->best;
+    float *least = links->least, *nearest = links->nearest;
+    int pairs = list_pairs(field, line, step, loose, count, links->source, links->target);
+    pairs = keep_fitting(field, step, loose, first, pairs, links);
+    for (int i = 0; i < count; i++) best[i] = size, least[i] = INFINITY;
+    for (int i = 0; i < pairs; i++) {
+        const int32_t one = links->source[i], other = links->target[i];
+        const float misfit = links->misfit[i];
+        best[one] = misfit < least[one] ? other : best[one];
+        least[one] = misfit < least[one] ? misfit : least[one];
+        nearest[other] = misfit < nearest[other] ? misfit : nearest[other];
+    }
+    nearest[size] = TAKEN;
+    int left = 0;
+    for (int i = 0; i < count; i++) {
+        const int32_t one = loose[i], other = best[i];
+        const int linked = least[i] == nearest[other];
+        nearest[other] = linked ? TAKEN : nearest[other];
+        links->following[one] = linked ? first + other : -1;
+        links->preceded[linked ? first + other : one] |= (uint8_t)linked;
+        loose[left] = one;
+        left += !linked;
+    }
+    links->count[number] = left;
+    for (int32_t i = 0; i < size; i++) nearest[i] = nearest[i] >= 0 ? INFINITY : TAKEN;
+}
+
+/* Link every point to the one that follows it, one to three lines on, where each is the other's nearest; nearer lines
+ * come first. */
+static void link_points(const Field *field, Links *links) {
+    for (int line = 0; line < field->lines; line++) {
+        const int32_t first = first_of_line(field, line), last = first_of_line(field, line + 1);
+        int32_t *loose = links->loose[line % RING];
+        int count = 0;
+        for (int32_t i = first; i < last; i++) {
+            const int strong = fabsf(field->points[i].norm) > field->low;
+            links->nearest[i - first] = strong ? INFINITY : TAKEN;
+            links->following[i] = -1;
+            links->preceded[i] = 0;
+            loose[count] = i;
+            count += strong;
         }
-        loose = left;
-        for (int64_t i = 0; i < count; i++) links.nearest[i] = links.nearest[i] >= 0 ? INFINITY : TAKEN;
+        links->count[line % RING] = count;
+        for (int step = 1; step <= LONGEST_STEP && step <= line; step++) link_line(field, line, step, links);
     }
+}
+
+/* Take memory for `points` in lines of at most `most`; it must be freed even if there is not enough. */
+static int take_memory(Links *links, size_t points, size_t most) {
+    const size_t pairs = WIDEST * most + LIKELY;
+    *links = (Links){.following = malloc(sizeof(int32_t) * points),
+                     .preceded = malloc(points),
+                     .best = malloc(sizeof(int32_t) * ((RING + 1) * most + 2 * pairs)),
+                     .least = malloc(sizeof(float) * (2 * most + pairs))};
+    if (!links->following || !links->preceded || !links->best || !links->least) return OUT_OF_MEMORY;
+    for (int i = 0; i < RING; i++) links->loose[i] = links->best + (size_t)(i + 1) * most;
+    links->source = links->best + (RING + 1) * most;
+    links->target = links->source + pairs;
+    links->nearest = links->least + most;
+    links->misfit = links->nearest + most;
+    return 0;
+}
+
+static void free_memory(Links *links) {
+    free(links->following);
+    free(links->preceded);
+    free(links->best);
+    free(links->least);
 }
 
 /* The parabola through a run of points, across = constant + linear u + square u^2 with u measured from `middle`. */
@@ -186,34 +233,32 @@ static int64_t split_chain(const float *along, const float *across, int count, i
 
 /* Chain the points of one pass and split the chains.
  *
- * points (count,), map int32 (height, width). low, high: hysteresis on the norm.
+ * points (count,), occupied, before: see cl_edge_points. low, high: hysteresis on the norm.
  * Written: rows int32, room for (count,), the chained points in order; chain_ends int64, room for (count,); runs int64,
  * room for (count, 2), first and one past last index into rows; sizes int64 (2,): chained points and chains.
  * Returns the number of runs or OUT_OF_MEMORY. */
-EXPORT int64_t cl_runs(const EdgePoint *points, int64_t count, const int32_t *map, int axis, int width, int height,
-                       double low, double high, int32_t *rows, int64_t *chain_ends, int64_t *runs, int64_t *sizes) {
-    const Field field = field_of(points, map, axis, width, height, (float)low);
-    const size_t room = (size_t)(count ? count : 1);
-    int32_t *rows_of_links = malloc(sizeof(int32_t) * 4 * room);
-    float *distances = malloc(sizeof(float) * 2 * room);
-    const int longest = axis == ALONG_X ? width : height;
-    float *along = malloc(sizeof(float) * 2 * (size_t)longest);
-    int *stack = malloc(sizeof(int) * 4 * (size_t)(longest + 2));
+EXPORT FOR_EACH_PROCESSOR int64_t cl_runs(const EdgePoint *points, int64_t count, const uint8_t *occupied,
+                                          const int32_t *before, int axis, int width, int height, double low,
+                                          double high, int32_t *rows, int64_t *chain_ends, int64_t *runs,
+                                          int64_t *sizes) {
+    const int lines = axis == ALONG_X ? width : height, across_size = axis == ALONG_X ? height : width;
+    const Field field = {points, {occupied, before, line_bytes(across_size)}, lines, (float)low};
+    const size_t room = (size_t)(count ? count : 1), most = (size_t)across_size + 1;
+    Links links;
+    float *along = malloc(sizeof(float) * 2 * (size_t)lines);
+    int *stack = malloc(sizeof(int) * 4 * (size_t)(lines + 2));
     int64_t found = 0, used = 0, chains = 0;
-    if (!rows_of_links || !distances || !along || !stack) {
+    if (take_memory(&links, room, most) || !along || !stack) {
         found = OUT_OF_MEMORY;
         goto end;
     }
-    float *across = along + longest;
-    const Links links = {rows_of_links, rows_of_links + room, rows_of_links + 2 * room, rows_of_links + 3 * room,
-                         distances,     distances + room};
-    const int32_t *following = links.following, *preceding = links.preceding;
-    link_points(&field, count, links);
+    float *across = along + lines;
+    link_points(&field, &links);
     for (int64_t i = 0; i < count; i++) {
-        if (preceding[i] >= 0 || following[i] < 0) continue;
+        if (links.preceded[i] || links.following[i] < 0) continue;
         int length = 0;
         float strongest = 0;
-        for (int32_t row = (int32_t)i; row >= 0; row = following[row]) {
+        for (int32_t row = (int32_t)i; row >= 0; row = links.following[row]) {
             rows[used + length] = row;
             along[length] = (float)points[row].along;
             across[length] = points[row].across;
@@ -229,8 +274,7 @@ EXPORT int64_t cl_runs(const EdgePoint *points, int64_t count, const int32_t *ma
     sizes[0] = used;
     sizes[1] = chains;
 end:
-    free(rows_of_links);
-    free(distances);
+    free_memory(&links);
     free(along);
     free(stack);
     return found;

@@ -2,6 +2,7 @@
 #include "equalisation.h"
 #include "gradient.h"
 #include "kernels.h"
+#include "places.h"
 
 enum { REPORT_PIXELS = 32768, MARKED_X = 1, MARKED_Y = 2 };
 /* edges up to 5 degrees beyond the diagonal belong to both passes, or noise would chop those near 45 degrees */
@@ -10,10 +11,13 @@ enum { REPORT_PIXELS = 32768, MARKED_X = 1, MARKED_Y = 2 };
 /* added to a float below 2^21, it leaves the nearest integer in the low bits: no call, and whole vectors at once */
 #define TO_INTEGER 12582912.0f
 
+/* The points of one pass as they are found, image row by image row. */
 typedef struct {
     EdgePoint *points;
-    int32_t *map;
     int64_t count;
+    uint8_t *occupied; /* see Places */
+    size_t line_bytes;
+    int32_t *latest; /* point of each line, where there is one */
 } Pass;
 
 /* Both gradients round an edge pixel, across the edge: the equalised one at -1..1, the plain one at -2..2. */
@@ -98,7 +102,7 @@ static int plain_maximum(const Profile *profile, float *offset) {
 
 /* Put a point down at pixel (along, across + shift); of two edge pixels that were led to one maximum between them the
  * stronger stays. */
-static inline void put(Pass *pass, const Profile *profile, int along, int across, size_t pixel, ptrdiff_t stride) {
+static inline void put(Pass *pass, const Profile *profile, int along, int across) {
     float offset;
     const int shift = plain_maximum(profile, &offset);
     const float forward = profile->forward[1 + shift], sideways = profile->sideways[1 + shift];
@@ -106,13 +110,34 @@ static inline void put(Pass *pass, const Profile *profile, int along, int across
     const int steep = (fabsf(sideways) <= LARGEST_SLOPE * fabsf(forward)) & (forward != 0);
     const EdgePoint point = {along, (float)across + offset, steep ? -sideways / forward : 0,
                              profile->forward[1] > 0 ? norm : -norm};
-    int32_t *place = &pass->map[(ptrdiff_t)pixel + shift * stride];
-    if (*place < 0) {
-        *place = (int32_t)pass->count;
+    const size_t place = (size_t)(across + shift + MARGIN);
+    uint8_t *eight = &pass->occupied[(size_t)along * pass->line_bytes + place / 8];
+    const uint8_t bit = (uint8_t)(1u << place % 8);
+    if (!(*eight & bit)) {
+        *eight |= bit;
+        pass->latest[along] = (int32_t)pass->count;
         pass->points[pass->count++] = point;
-    } else if (fabsf(point.norm) > fabsf(pass->points[*place].norm)) {
-        pass->points[*place] = point;
+        return;
     }
+    /* shifts of one pixel leave the points of a line in order, so it can only be the latest */
+    EdgePoint *other = &pass->points[pass->latest[along]];
+    if (fabsf(point.norm) > fabsf(other->norm)) *other = point;
+}
+
+/* Count the points before each byte of a pass's places. */
+static void count_before(const Pass *pass, int lines, int32_t *before) {
+    const size_t bytes = (size_t)(lines + LINES_BEYOND) * pass->line_bytes;
+    int32_t count = 0;
+    for (size_t i = 0; i < bytes; i++) {
+        before[i] = count;
+        count += bits_set[pass->occupied[i]];
+    }
+}
+
+/* Order points found row by row by their columns; `next` gets a point to be written next for each of these. */
+static void order_by_line(const Pass *pass, int lines, const int32_t *before, int32_t *next, EdgePoint *ordered) {
+    for (int line = 0; line < lines; line++) next[line] = before[(size_t)line * pass->line_bytes];
+    for (int64_t i = 0; i < pass->count; i++) ordered[next[pass->points[i].along]++] = pass->points[i];
 }
 
 /* Edge points of both passes in image row y, neither the first nor the last. */
@@ -128,7 +153,6 @@ static void find_points(const Gradient *equalised, const Gradient *plain, int y,
     }
     for (int k = 0; k < 5; k++) plain_norm[k] = kept_row(plain->norm, width, clamp(y + k - 2, 0, height - 1));
     const float *plain_x = kept_row(plain->x, width, y), *plain_own = plain_norm[2];
-    const size_t begin = (size_t)y * (size_t)width;
     mark_maxima(norm[0], norm[1], norm[2], gx[1], gy[1], width, weakest, marks);
     int32_t *chosen = list + width;
     const int marked = list_marked(marks, width, list);
@@ -142,7 +166,7 @@ static void find_points(const Gradient *equalised, const Gradient *plain, int y,
             {plain_norm[0][x], plain_norm[1][x], plain_own[x], plain_norm[3][x], plain_norm[4][x]},
             {plain_y[0][x], plain_y[1][x], plain_y[2][x]},
         };
-        put(&passes[ALONG_X], &profile, x, y, begin + (size_t)x, width);
+        put(&passes[ALONG_X], &profile, x, y);
     }
     count = choose_marked(marks, list, marked, MARKED_Y, chosen);
     for (int i = 0; i < count; i++) {
@@ -154,7 +178,7 @@ static void find_points(const Gradient *equalised, const Gradient *plain, int y,
             {plain_own[before], plain_own[x - 1], plain_own[x], plain_own[x + 1], plain_own[after]},
             {plain_x[x - 1], plain_x[x], plain_x[x + 1]},
         };
-        put(&passes[ALONG_Y], &profile, y, x, begin + (size_t)x, 1);
+        put(&passes[ALONG_Y], &profile, y, x);
     }
 }
 
@@ -176,24 +200,28 @@ static void equalised_row(const void *image, int row, float *out) { equalise_row
  * gray: uint8 (height, width), both 3 or more. tables, left, rightward: see cl_equalising_tables, cl_tile_weights.
  * sigma: blur of the equalised image, that edges are found in; position_sigma: of the plain one, that they are measured
  * in. weakest: norm that an edge point exceeds.
- * Written: gradient_x, gradient_y int16 (height, width) in steps of 1 / 16; maps int32 (2, height, width); points, room
- * for (2, capacity); counts int64 (2,).
+ * occupied_x, occupied_y: zeros. Written: gradient_x, gradient_y int16 (height, width) in steps of 1 / 16; of both
+ * passes the points, room for (capacity,) each, counts int64 (2,), and occupied and before as in Places.
  * Returns 0, OUT_OF_MEMORY or CANCELLED. */
 EXPORT int cl_edge_points(const uint8_t *gray, int width, int height, const float *tables, int columns, int rows,
                           const int32_t *left, const float *rightward, double sigma, double position_sigma,
-                          double weakest, int16_t *gradient_x, int16_t *gradient_y, int32_t *maps, EdgePoint *points,
-                          int64_t capacity, int64_t *counts, Report report) {
-    const size_t line = (size_t)width, size = line * (size_t)height;
+                          double weakest, int16_t *gradient_x, int16_t *gradient_y, EdgePoint *points_x,
+                          EdgePoint *points_y, int64_t capacity, uint8_t *occupied_x, uint8_t *occupied_y,
+                          int32_t *before_x, int32_t *before_y, int64_t *counts, Report report) {
+    const size_t line = (size_t)width;
     float *blended = malloc(sizeof(float) * 2 * (size_t)columns * LEVELS);
     const Equaliser equaliser = {gray, width, height, columns, rows, tables, left, rightward, blended};
     const Plain plain_image = {gray, width};
     Gradient equalised = {0}, plain = {0};
     uint8_t *marks = malloc(line);
-    int32_t *list = malloc(sizeof(int32_t) * 2 * line);
-    Pass passes[2] = {{points, maps, 0}, {points + capacity, maps + size, 0}};
+    int32_t *list = malloc(sizeof(int32_t) * 2 * line), *latest = malloc(sizeof(int32_t) * (line + (size_t)height));
+    EdgePoint *by_row = malloc(sizeof(EdgePoint) * (size_t)capacity);
+    Pass passes[2] = {{by_row, 0, occupied_x, line_bytes(height), latest},
+                      {points_y, 0, occupied_y, line_bytes(width), latest + width}};
     const int report_rows = clamp(REPORT_PIXELS / width, 16, height > 16 ? height : 16);
     int status = 0;
-    if (!blended || !marks || !list || gradient_open(&equalised, equalised_row, &equaliser, width, height, sigma) ||
+    if (!blended || !marks || !list || !latest || !by_row ||
+        gradient_open(&equalised, equalised_row, &equaliser, width, height, sigma) ||
         gradient_open(&plain, plain_row, &plain_image, width, height, position_sigma)) {
         status = OUT_OF_MEMORY;
         goto end;
@@ -210,10 +238,12 @@ EXPORT int cl_edge_points(const uint8_t *gray, int width, int height, const floa
             const size_t begin = (size_t)row * line;
             write_steps(kept_row(equalised.x, width, row), width, gradient_x + begin);
             write_steps(kept_row(equalised.y, width, row), width, gradient_y + begin);
-            for (int axis = 0; axis < 2; axis++) memset(passes[axis].map + begin, 0xff, line * sizeof(int32_t));
         }
         if (row >= 3 && row < height + 1) find_points(&equalised, &plain, row - 2, (float)weakest, marks, list, passes);
     }
+    count_before(&passes[ALONG_X], width, before_x);
+    count_before(&passes[ALONG_Y], height, before_y);
+    order_by_line(&passes[ALONG_X], width, before_x, latest, points_x);
     counts[ALONG_X] = passes[ALONG_X].count;
     counts[ALONG_Y] = passes[ALONG_Y].count;
 end:
@@ -222,5 +252,7 @@ end:
     free(blended);
     free(marks);
     free(list);
+    free(latest);
+    free(by_row);
     return status;
 }

@@ -4,6 +4,13 @@
 #define SHORTEST 25.0
 #define MOST_MISSES 5
 #define DENSITY 0.7
+enum { BATCH = 8 };
+
+/* The part of a walk from a sample on, `most` samples long where there are so many. */
+static Walk part_of(Walk walk, int sample, int most) {
+    const int last = sample + most < walk_length(walk) ? sample + most - 1 : walk_length(walk) - 1;
+    return (Walk){walk.axis, walk.first + sample * walk.step, walk.first + last * walk.step, walk.step};
+}
 
 /* Tangent coordinate that an end can be moved to, walking outwards over at most the arc's own length. */
 static double reached(const Scene *scene, const Arc *arc, int outward) {
@@ -19,12 +26,14 @@ static double reached(const Scene *scene, const Arc *arc, int outward) {
     }
     const int count = walk_length(walk);
     int hits = 0, misses = 0;
+    Sample samples[BATCH];
     for (int i = 0; i < count; i++) {
-        const Sample sample = sample_at(scene, arc, walk.axis, walk.first + i * walk.step);
-        if (sample.state & HIT) {
+        if (i % BATCH == 0) sample_walk(scene, arc, part_of(walk, i, BATCH), samples);
+        const Sample *sample = &samples[i % BATCH];
+        if (sample->state & HIT) {
             hits++;
             misses = 0;
-            if (hits >= DENSITY * (i + 1)) best = sample.u;
+            if (hits >= DENSITY * (i + 1)) best = sample->u;
         } else if (++misses > MOST_MISSES) {
             break;
         }
@@ -32,11 +41,9 @@ static double reached(const Scene *scene, const Arc *arc, int outward) {
     /* into the corner that the edge ends at, which blur has rounded off */
     const Vector end = arc_position(arc, best);
     const int along = (int)lrint(walk.axis == ALONG_X ? end.x : end.y);
-    for (int i = 1; i <= ROUNDED; i++) {
-        const Sample sample = sample_at(scene, arc, walk.axis, along + i * walk.step);
-        if (!(sample.state & LOOSE)) break;
-        best = sample.u;
-    }
+    const Walk corner = {walk.axis, along + walk.step, along + ROUNDED * walk.step, walk.step};
+    sample_walk(scene, arc, corner, samples);
+    for (int i = 0; i < ROUNDED && samples[i].state & LOOSE; i++) best = samples[i].u;
     return best;
 }
 

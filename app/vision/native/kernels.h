@@ -49,8 +49,9 @@ typedef struct {
     int32_t width, height;
     const uint8_t *gray;
     const int16_t *gradient_x, *gradient_y;
-    const int32_t *map[2]; /* row of the point found at each pixel, -1 where there is none */
-    const EdgePoint *points[2];
+    const EdgePoint *points[2]; /* of both passes, and where they are; see Places */
+    const uint8_t *occupied[2];
+    const int32_t *before[2];
 } Scene;
 
 enum { MOMENTS = 9, TRAITS = 3 };

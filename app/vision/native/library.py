@@ -34,18 +34,20 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
         [
             *(_p, c_int, c_int, _p, c_int, c_int, _p, _p),
             *(c_double, c_double, c_double),
-            *(_p, _p, _p, _p, c_int64, _p, Report),
+            *(_p, _p, _p, _p, c_int64, _p, _p, _p, _p, _p, Report),
         ],
     ),
     # chains.c
-    "cl_runs": (c_int64, [_p, c_int64, _p, c_int, c_int, c_int, c_double, c_double, _p, _p, _p, _p]),
+    "cl_runs": (c_int64, [_p, c_int64, _p, _p, c_int, c_int, c_int, c_double, c_double, _p, _p, _p, _p]),
     # pieces.c
     "cl_pieces": (None, [_p, c_int, _p, _p, c_int64, _p, c_int, c_int, c_int32, _p]),
     # merging.c
     "cl_merge": (c_int64, [POINTER(Scene), _p, c_int64, _p, _p, _p, _p, Report]),
+    "cl_leave_out_short": (c_int64, [_p, c_int64, c_double]),
     # extension.c
     "cl_extend": (None, [POINTER(Scene), _p, c_int64]),
     # selection.c
+    "cl_count_samples": (c_int64, [_p, c_int64, c_double]),
     "cl_select": (c_int64, [POINTER(Scene), _p, c_int64, c_double, c_double, _p, _p, c_int64, Report]),
 }
 

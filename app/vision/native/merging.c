@@ -27,12 +27,11 @@ typedef struct {
     double reach, length;
 } End;
 
-/* What the search looks at first, packed: an end in the list of its cell. */
+/* What the search looks at first, packed. */
 typedef struct {
-    int32_t next;
-    uint16_t direction; /* see direction_of */
-    uint16_t alive;
-} Link;
+    int32_t end;
+    int32_t direction; /* see direction_of */
+} Slot;
 
 typedef struct {
     const Scene *scene;
@@ -41,10 +40,13 @@ typedef struct {
     uint16_t turn; /* no directions within the rule's angle differ by more */
     Arc *arcs;
     End *ends;
-    Link *links; /* of each end */
+    uint8_t *alive; /* of each arc */
     int32_t count;
     int columns, rows;
-    int32_t *heads; /* first end in each cell: starts, then ends */
+    /* cells: those of starts row by row, then those of ends. The ends of the arcs given lie in their order, the first
+     * of each cell in `firsts`; those of the arcs made of them are in lists, `heads` being the latest of each cell */
+    Slot *slots; /* in order, then those in the lists */
+    int32_t *firsts, *heads, *next;
     PairHeap heap;
     double longest_reach;
 } Merger;
@@ -52,10 +54,10 @@ typedef struct {
 /* places beyond the border count as the cells there, so that truncation does as well as floor, which is a call */
 static int cell_of(double place, int count) { return clamp((int)(place / CELL), 0, count - 1); }
 
-static int32_t *head_of(Merger *merger, int32_t end) {
+static int32_t cell_at(const Merger *merger, int32_t end) {
     const Vector place = merger->ends[end].place;
-    const int cell = cell_of(place.y, merger->rows) * merger->columns + cell_of(place.x, merger->columns);
-    return &merger->heads[(size_t)(end % 2) * merger->columns * merger->rows + cell];
+    const int row = cell_of(place.y, merger->rows) + end % 2 * merger->rows;
+    return row * merger->columns + cell_of(place.x, merger->columns);
 }
 
 /* Stands for the angle of a direction: rises with it, by a whole turn in 2^16 steps; a right angle is 2^14. */
@@ -65,12 +67,11 @@ static uint16_t direction_of(Vector v) {
     return (uint16_t)(int32_t)((v.x >= 0 ? 4 + share : 2 - share) * DIRECTION_STEPS);
 }
 
-static void enter_arc(Merger *merger, int32_t arc) {
+static void note_ends(Merger *merger, int32_t arc) {
     const Arc *own = &merger->arcs[arc];
     const double length = larger(own->high - own->low, 1);
     for (int side = 0; side < 2; side++) {
-        const int32_t index = 2 * arc + side;
-        End *end = &merger->ends[index];
+        End *end = &merger->ends[2 * arc + side];
         const Vector direction = arc_direction(own, side ? own->high : own->low);
         end->place = arc_end(own, side);
         end->outward = side ? direction : (Vector){-direction.x, -direction.y};
@@ -78,16 +79,29 @@ static void enter_arc(Merger *merger, int32_t arc) {
         /* a gap is at most 0.7 (L1 + L2) + 6, so the longer arc's length bounds it */
         end->reach = smaller(2 * GAP_PER_LENGTH * length + SURE_GAP, merger->rule->reach);
         if (end->reach > merger->longest_reach) merger->longest_reach = end->reach;
-        int32_t *head = head_of(merger, index);
-        merger->links[index] = (Link){*head, direction_of(end->outward), 1};
-        *head = index;
     }
+    merger->alive[arc] = 1;
 }
 
-/* Take the ends of dead arcs out of a cell's list on the way through it. */
-static int32_t first_alive(const Merger *merger, int32_t *link) {
-    while (*link >= 0 && !merger->links[*link].alive) *link = merger->links[*link].next;
-    return *link;
+/* Put the ends of the arcs given into the order of their cells. */
+static void order_ends(Merger *merger) {
+    const int32_t ends = 2 * merger->count, cells = 2 * merger->columns * merger->rows;
+    int32_t *firsts = merger->firsts, sum = 0;
+    for (int32_t end = 0; end < ends; end++) firsts[cell_at(merger, end)]++;
+    for (int32_t cell = 0; cell <= cells; cell++) sum += firsts[cell], firsts[cell] = sum;
+    /* filled from behind, which leaves the first of each */
+    for (int32_t end = ends - 1; end >= 0; end--)
+        merger->slots[--firsts[cell_at(merger, end)]] = (Slot){end, direction_of(merger->ends[end].outward)};
+}
+
+/* Put the ends of an arc that was made into the lists of their cells. */
+static void list_ends(Merger *merger, int32_t arc) {
+    for (int32_t end = 2 * arc; end < 2 * arc + 2; end++) {
+        int32_t *head = &merger->heads[cell_at(merger, end)];
+        merger->slots[end] = (Slot){end, direction_of(merger->ends[end].outward)};
+        merger->next[end] = *head;
+        *head = end;
+    }
 }
 
 /* Put a pair of ends on the heap if it fulfils the rule. */
@@ -122,21 +136,34 @@ static int consider(Merger *merger, int32_t one, int32_t two) {
     return push_pair(&merger->heap, (Pair){cost + joined.rms, leave, enter});
 }
 
-/* Consider the pairs of an end with those in one cell. With `shorter_only` those with ends of longer arcs, and of
+/* Directions that an end's partner may have: from `first` on, within a number of steps. */
+typedef struct {
+    uint16_t first, steps;
+} Facing;
+
+/* Consider the pair of an end with one that may face it. With `shorter_only` pairs with ends of longer arcs, and of
  * equals those of a higher number, are left to these. */
-static int consider_cell(Merger *merger, int32_t end, int32_t *link, int shorter_only) {
-    const End *own = &merger->ends[end];
-    const uint16_t facing = (uint16_t)(merger->links[end].direction + (uint16_t)(2 * DIRECTION_STEPS) - merger->turn);
-    for (int32_t other; (other = first_alive(merger, link)) >= 0; link = &merger->links[other].next) {
-        const uint16_t turn = (uint16_t)(merger->links[other].direction - facing);
-        if (turn > 2 * merger->turn || other / 2 == end / 2) continue;
-        const End *to = &merger->ends[other];
-        if (shorter_only && (to->length > own->length || (to->length == own->length && other < end))) continue;
-        const Vector vector = minus(to->place, own->place);
-        const double most = larger(own->reach, to->reach);
-        if (dot(vector, vector) > most * most) continue;
-        if (consider(merger, end, other)) return OUT_OF_MEMORY;
-    }
+static inline int consider_slot(Merger *merger, int32_t end, Facing facing, const Slot *slot, int shorter_only) {
+    const uint16_t turn = (uint16_t)(slot->direction - facing.first);
+    const int32_t other = slot->end;
+    if (turn > facing.steps || other / 2 == end / 2 || !merger->alive[other / 2]) return 0;
+    const End *own = &merger->ends[end], *to = &merger->ends[other];
+    if (shorter_only && (to->length > own->length || (to->length == own->length && other < end))) return 0;
+    const Vector vector = minus(to->place, own->place);
+    const double most = larger(own->reach, to->reach);
+    if (dot(vector, vector) > most * most) return 0;
+    return consider(merger, end, other);
+}
+
+/* Consider the pairs of an end with those in some neighbouring cells. */
+static int consider_cells(Merger *merger, int32_t end, Facing facing, int32_t first, int32_t last, int shorter_only) {
+    const Slot *stop = merger->slots + merger->firsts[last + 1];
+    for (const Slot *slot = merger->slots + merger->firsts[first]; slot < stop; slot++)
+        if (consider_slot(merger, end, facing, slot, shorter_only)) return OUT_OF_MEMORY;
+    if (shorter_only) return 0; /* nothing has been merged yet */
+    for (int32_t cell = first; cell <= last; cell++)
+        for (int32_t other = merger->heads[cell]; other >= 0; other = merger->next[other])
+            if (consider_slot(merger, end, facing, &merger->slots[other], 0)) return OUT_OF_MEMORY;
     return 0;
 }
 
@@ -149,6 +176,8 @@ static int consider_ahead(Merger *merger, int32_t end, double reach, int shorter
     const double margin_x = width * fabs(own->outward.y), margin_y = width * fabs(own->outward.x);
     const int y0 = cell_of(own->place.y + smaller(back_y, ahead_y) - margin_y, merger->rows);
     const int y1 = cell_of(own->place.y + larger(back_y, ahead_y) + margin_y, merger->rows);
+    const uint16_t opposite = (uint16_t)(direction_of(own->outward) + (int)(2 * DIRECTION_STEPS));
+    const Facing facing = {(uint16_t)(opposite - merger->turn), (uint16_t)(2 * merger->turn)};
     const double per_row = fabs(own->outward.y) > 1e-6 ? 1 / own->outward.y : 0;
     for (int y = y0; y <= y1; y++) {
         /* the part of the rectangle's middle line whose breadth touches this row of cells; those at the border hold all
@@ -166,9 +195,8 @@ static int consider_ahead(Merger *merger, int32_t end, double reach, int shorter
         const int x1 = cell_of(larger(one, two) + margin_x, merger->columns);
         for (int side = 0; side < 2; side++) {
             if (merger->rule->same_polarity != 0 && side == end % 2) continue;
-            int32_t *heads = merger->heads + ((size_t)side * merger->rows + y) * merger->columns;
-            for (int x = x0; x <= x1; x++)
-                if (heads[x] >= 0 && consider_cell(merger, end, &heads[x], shorter_only)) return OUT_OF_MEMORY;
+            const int32_t row = (side * merger->rows + y) * merger->columns;
+            if (consider_cells(merger, end, facing, row + x0, row + x1, shorter_only)) return OUT_OF_MEMORY;
         }
     }
     return 0;
@@ -188,13 +216,17 @@ EXPORT int64_t cl_merge(const Scene *scene, Arc *arcs, int64_t count, const Rule
     merger.rows = (int)(scene->height / CELL) + 1;
     const size_t cells = (size_t)merger.columns * merger.rows, room = (size_t)(2 * count + 1);
     merger.ends = malloc(2 * room * sizeof(End));
+    merger.alive = malloc(room);
+    merger.slots = malloc(2 * room * sizeof(Slot));
+    merger.next = malloc(2 * room * sizeof(int32_t));
+    merger.firsts = calloc(2 * cells + 1, sizeof(int32_t));
     merger.heads = malloc(2 * cells * sizeof(int32_t));
-    merger.links = malloc(2 * room * sizeof(Link));
     int64_t left = OUT_OF_MEMORY;
-    if (!merger.ends || !merger.heads || !merger.links) goto end;
+    if (!merger.ends || !merger.alive || !merger.slots || !merger.next || !merger.firsts || !merger.heads) goto end;
     memset(merger.heads, 0xff, 2 * cells * sizeof(int32_t));
-    for (int32_t arc = 0; arc < count; arc++) enter_arc(&merger, arc);
     merger.count = (int32_t)count;
+    for (int32_t arc = 0; arc < count; arc++) note_ends(&merger, arc);
+    order_ends(&merger);
     for (int32_t end = 0; end < 2 * count; end++) {
         if (end % REPORT_EVERY == 0 && is_cancelled(report, end, 3 * count)) {
             left = CANCELLED;
@@ -205,7 +237,7 @@ EXPORT int64_t cl_merge(const Scene *scene, Arc *arcs, int64_t count, const Rule
     while (merger.heap.count) {
         const Pair pair = pop_pair(&merger.heap);
         const int32_t first = pair.leave / 2, second = pair.enter / 2;
-        if (!merger.links[pair.leave].alive || !merger.links[pair.enter].alive) continue;
+        if (!merger.alive[first] || !merger.alive[second]) continue;
         const int32_t index = merger.count++;
         if (index % REPORT_EVERY == 0 && is_cancelled(report, count + index, 3 * count)) {
             left = CANCELLED;
@@ -235,19 +267,30 @@ EXPORT int64_t cl_merge(const Scene *scene, Arc *arcs, int64_t count, const Rule
         joined->first_join = head;
         joined->last_join = tail;
         (*made)++;
-        for (int side = 0; side < 2; side++)
-            merger.links[2 * first + side].alive = merger.links[2 * second + side].alive = 0;
-        enter_arc(&merger, index);
+        merger.alive[first] = merger.alive[second] = 0;
+        note_ends(&merger, index);
+        list_ends(&merger, index);
         for (int side = 0; side < 2; side++)
             if (consider_ahead(&merger, 2 * index + side, merger.longest_reach, 0)) goto end;
     }
     left = 0;
     for (int32_t arc = 0; arc < merger.count; arc++)
-        if (merger.links[2 * arc].alive) arcs[left++] = arcs[arc];
+        if (merger.alive[arc]) arcs[left++] = arcs[arc];
 end:
     free(merger.ends);
+    free(merger.alive);
+    free(merger.slots);
+    free(merger.next);
+    free(merger.firsts);
     free(merger.heads);
-    free(merger.links);
     free(merger.heap.pairs);
+    return left;
+}
+
+/* Move the arcs of at least some length, px, to the front. Returns their number. */
+EXPORT int64_t cl_leave_out_short(Arc *arcs, int64_t count, double least) {
+    int64_t left = 0;
+    for (int64_t i = 0; i < count; i++)
+        if (arcs[i].high - arcs[i].low >= least) arcs[left++] = arcs[i];
     return left;
 }

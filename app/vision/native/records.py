@@ -63,6 +63,10 @@ GRADIENT_SCALE = 16.0
 """Gradients are kept as integers, in steps of 1 / 16 grey level."""
 
 
+MARGIN, LINES_BEYOND = 16, 3
+"""Pixels without points on either side of a line of `app.vision.edges.Places`, and such lines after the last."""
+
+
 class Scene(ctypes.Structure):
     """Image, gradient and edge points that arcs are looked at in; `app.vision.edges.EdgeMap` holds the memory."""
 
@@ -72,8 +76,9 @@ class Scene(ctypes.Structure):
         ("gray", c_void_p),
         ("gradient_x", c_void_p),
         ("gradient_y", c_void_p),
-        ("map", c_void_p * 2),
         ("points", c_void_p * 2),
+        ("occupied", c_void_p * 2),
+        ("before", c_void_p * 2),
     )
 
 

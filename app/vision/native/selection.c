@@ -128,14 +128,22 @@ static Finding measure(const Arc *arc, const Sample *samples, int count) {
     return finding;
 }
 
+/* How many columns (or rows) arcs of at least some length pass: no more points are measured along them. */
+EXPORT int64_t cl_count_samples(const Arc *arcs, int64_t count, double least) {
+    int64_t total = 0;
+    for (int64_t i = 0; i < count; i++)
+        if (arcs[i].high - arcs[i].low >= least) total += walk_length(walk_along(&arcs[i], arcs[i].low, arcs[i].high));
+    return total;
+}
+
 /* De-duplicate arcs and measure what is left.
  *
  * Arcs are painted into the image, the best first. One that runs over the paint of arcs in its direction for more than
  * 40 % of its way goes; of the others the painted ends go, and what has no point at the ends.
  *
  * arcs (count,). least: shortest arc to look at, px. width: how far from an arc the paint reaches, px. Written:
- * findings, room for (count,), in the order painted; xy float32, room for (room, 2). Returns the number of findings,
- * OUT_OF_MEMORY, CANCELLED, or NO_ROOM where that for points is too small. */
+ * findings, room for (count,), in the order painted; xy float32, room for (room, 2), see cl_count_samples. Returns the
+ * number of findings, OUT_OF_MEMORY, CANCELLED, or NO_ROOM where that for points is too small. */
 EXPORT int64_t cl_select(const Scene *scene, const Arc *arcs, int64_t count, double least, double width,
                          Finding *findings, float *xy, int64_t room, Report report) {
     /* fresh memory is zero already: only what gets painted is touched */

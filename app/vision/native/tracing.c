@@ -1,4 +1,5 @@
 #include "tracing.h"
+#include "places.h"
 
 enum { BATCH = 32 };
 #define TOLERANCE 1.5
@@ -20,61 +21,76 @@ Walk walk_along(const Arc *arc, double low, double high) {
     return walk;
 }
 
-/* Where an arc passes a column (or row, for steep arcs). */
+/* Where an arc passes some columns (or rows, for steep arcs) in a row. */
 typedef struct {
-    double u, across, slope, cosine;
-} Crossing;
+    double u[BATCH], across[BATCH], slope[BATCH], cosine[BATCH];
+} Crossings;
 
 /* With v the signed distance from the tangent, the arc is bend (u^2 + v^2) + v = 0, and the column is
  * u main + v normal = d: a quadratic in v. Beyond the circle's own columns the nearest of them counts. */
-static inline Crossing crossing_at(const Arc *arc, int axis, int along) {
+FOR_EACH_PROCESSOR static void cross_columns(const Arc *arc, int axis, int first, int step, int count,
+                                             Crossings *restrict crossings) {
     const double main = arc->tangent[axis], other = arc->tangent[!axis], bend = arc->bend;
-    const double normal = axis == ALONG_X ? -other : other, d = along - arc->foot[axis];
-    const double half = main * main - 2 * bend * d * normal, square = half * half - 4 * bend * bend * d * d;
-    const double root = sqrt(square > 0 ? square : 0), divisor = half + root;
-    const double v = divisor > 0 ? -2 * bend * d * d / divisor : 0, u = (d - v * normal) / main;
-    /* direction of the arc there, in parts of the tangent and of the normal */
-    const double cosine = 1 + 2 * bend * v, sine = -2 * bend * u;
-    const double across_normal = axis == ALONG_X ? main : -main;
-    const double forward = cosine * main + sine * normal, side = cosine * other + sine * across_normal;
-    return (Crossing){u, arc->foot[!axis] + u * other + v * across_normal, side / forward, fabs(forward)};
+    const double normal = axis == ALONG_X ? -other : other, across_normal = axis == ALONG_X ? main : -main;
+    const double foot_along = arc->foot[axis], foot_across = arc->foot[!axis];
+    for (int i = 0; i < count; i++) {
+        const double d = first + i * step - foot_along;
+        const double half = main * main - 2 * bend * d * normal, square = half * half - 4 * bend * bend * d * d;
+        const double root = sqrt(square > 0 ? square : 0), divisor = half + root;
+        const double v = divisor > 0 ? -2 * bend * d * d / divisor : 0, u = (d - v * normal) / main;
+        /* direction of the arc there, in parts of the tangent and of the normal */
+        const double cosine = 1 + 2 * bend * v, sine = -2 * bend * u;
+        const double forward = cosine * main + sine * normal, side = cosine * other + sine * across_normal;
+        crossings->u[i] = u;
+        crossings->across[i] = foot_across + u * other + v * across_normal;
+        crossings->slope[i] = side / forward;
+        crossings->cosine[i] = fabs(forward);
+    }
 }
 
 enum { NEIGHBOURS = 3 };
 
-/* The map at the pixel that an arc passes and at those on either side of it; the middle one first, as it wins a draw.
- */
-static inline void look_up(const Scene *scene, int axis, int along, int pixel, int32_t rows[NEIGHBOURS]) {
+static inline Places places_of(const Scene *scene, int axis) {
+    return (Places){scene->occupied[axis], scene->before[axis],
+                    line_bytes(axis == ALONG_X ? scene->height : scene->width)};
+}
+
+/* The points at the pixel that an arc passes and at those on either side of it, -1 where there is none; the middle one
+ * first, as it wins a draw. */
+static inline void look_up(const Scene *scene, const Places *places, int axis, int along, int pixel,
+                           int32_t rows[NEIGHBOURS]) {
     const int along_size = axis == ALONG_X ? scene->width : scene->height;
     const int across_size = axis == ALONG_X ? scene->height : scene->width;
-    const ptrdiff_t stride = axis == ALONG_X ? scene->width : 1;
-    const int32_t *map = scene->map[axis] + (axis == ALONG_X ? along : (ptrdiff_t)along * scene->width);
-    const int inside = along >= 0 && along < along_size;
-    rows[0] = inside && pixel >= 0 && pixel < across_size ? map[pixel * stride] : -1;
-    rows[1] = inside && pixel > 0 && pixel <= across_size ? map[(pixel - 1) * stride] : -1;
-    rows[2] = inside && pixel >= -1 && pixel < across_size - 1 ? map[(pixel + 1) * stride] : -1;
+    /* in the margins there are no points, and the lines beyond have none */
+    const int line = along >= 0 && along < along_size ? along : along_size;
+    const Window window = window_at(places, line, clamp(pixel, -2, across_size + 1) - 1, NEIGHBOURS);
+    const int32_t below = window.bits & 1, own = window.bits >> 1 & 1, above = window.bits >> 2;
+    rows[0] = own ? window.first + below : -1;
+    rows[1] = below ? window.first : -1;
+    rows[2] = above ? window.first + below + own : -1;
 }
 
 static inline Sample sample_crossing(const EdgePoint *points, const int32_t rows[NEIGHBOURS], int pixel,
-                                     const Crossing *crossing) {
+                                     const Crossings *crossings, int i) {
+    const double across = crossings->across[i], arc_slope = crossings->slope[i];
     /* what stands for a point that isn't there: whether one is cannot be guessed, so nothing branches on it */
     static const EdgePoint nowhere = {.across = INFINITY};
     const EdgePoint *nearest = &nowhere;
     double misfit = INFINITY;
-    for (int i = 0; i < NEIGHBOURS; i++) {
-        const EdgePoint *point = rows[i] < 0 ? &nowhere : &points[rows[i]];
-        const double difference = point->across - crossing->across;
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        const EdgePoint *point = rows[k] < 0 ? &nowhere : &points[rows[k]];
+        const double difference = point->across - across;
         const int nearer = fabs(difference) < fabs(misfit);
         misfit = nearer ? difference : misfit;
         nearest = nearer ? point : nearest;
     }
-    const double distance = misfit * crossing->cosine, slope = nearest->slope;
-    const double turn = fabs(slope - crossing->slope), level = fabs(1 + slope * crossing->slope);
+    const double distance = misfit * crossings->cosine[i], slope = nearest->slope;
+    const double turn = fabs(slope - arc_slope), level = fabs(1 + slope * arc_slope);
     const int hit = (fabs(distance) <= TOLERANCE) & (turn <= ANGLE * level);
     const int close = (fabs(distance) <= CLOSE_TOLERANCE) & (turn <= CLOSE_ANGLE * level);
     const int loose = (fabs(distance) <= TOLERANCE) & (turn <= LOOSE_ANGLE * level);
-    return (Sample){crossing->u,
-                    (float)crossing->across,
+    return (Sample){crossings->u[i],
+                    (float)across,
                     pixel,
                     nearest->across,
                     (float)distance,
@@ -82,30 +98,21 @@ static inline Sample sample_crossing(const EdgePoint *points, const int32_t rows
                     hit * HIT | close * CLOSE | loose * LOOSE};
 }
 
-Sample sample_at(const Scene *scene, const Arc *arc, int axis, int along) {
-    const Crossing crossing = crossing_at(arc, axis, along);
-    const int pixel = (int)lrint(crossing.across);
-    int32_t rows[NEIGHBOURS];
-    look_up(scene, axis, along, pixel, rows);
-    return sample_crossing(scene->points[axis], rows, pixel, &crossing);
-}
-
 /* In three rounds, each of which has the memory fetched that the next one reads. */
 void sample_walk(const Scene *scene, const Arc *arc, Walk walk, Sample *samples) {
-    Crossing crossings[BATCH];
+    Crossings crossings;
     int32_t rows[BATCH][NEIGHBOURS], pixels[BATCH];
     const EdgePoint *points = scene->points[walk.axis];
+    const Places places = places_of(scene, walk.axis);
     const int length = walk_length(walk);
     for (int start = 0; start < length; start += BATCH) {
         const int count = length - start < BATCH ? length - start : BATCH, first = walk.first + start * walk.step;
+        cross_columns(arc, walk.axis, first, walk.step, count, &crossings);
         for (int i = 0; i < count; i++) {
-            crossings[i] = crossing_at(arc, walk.axis, first + i * walk.step);
-            pixels[i] = (int)lrint(crossings[i].across);
-        }
-        for (int i = 0; i < count; i++) {
-            look_up(scene, walk.axis, first + i * walk.step, pixels[i], rows[i]);
+            pixels[i] = (int)lrint(crossings.across[i]);
+            look_up(scene, &places, walk.axis, first + i * walk.step, pixels[i], rows[i]);
             for (int k = 0; k < NEIGHBOURS; k++) __builtin_prefetch(points + (rows[i][k] > 0 ? rows[i][k] : 0));
         }
-        for (int i = 0; i < count; i++) samples[start + i] = sample_crossing(points, rows[i], pixels[i], &crossings[i]);
+        for (int i = 0; i < count; i++) samples[start + i] = sample_crossing(points, rows[i], pixels[i], &crossings, i);
     }
 }

@@ -29,7 +29,6 @@ typedef struct {
 Walk walk_along(const Arc *arc, double low, double high);
 /* Sample all that a walk passes; `samples` has room for walk_length(walk). */
 void sample_walk(const Scene *scene, const Arc *arc, Walk walk, Sample *samples);
-Sample sample_at(const Scene *scene, const Arc *arc, int axis, int along);
 static inline int walk_length(Walk walk) { return walk.step * (walk.last - walk.first) + 1; }
 
 #endif

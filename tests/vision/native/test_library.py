@@ -11,7 +11,7 @@ import pytest
 
 from app.errors import BrokenInstallation
 from app.vision.native import library as module
-from app.vision.native.records import ARC, FINDING, JOIN, POINT, Scene, address
+from app.vision.native.records import ARC, FINDING, JOIN, LINES_BEYOND, MARGIN, POINT, Scene, address
 
 NATIVE = Path(module.__file__).parent
 SIZES = {"int32_t": 4, "float": 4, "double": 8}
@@ -47,6 +47,11 @@ def test_the_scene_has_the_order_of_its_declaration() -> None:
     (body,) = re.findall(r"typedef struct \{([^{}]*)\} Scene;", (NATIVE / "kernels.h").read_text())
     names = re.findall(r"(\w+)(?:\[2\])?(?:,|;)", re.sub(r"/\*.*?\*/", "", body))
     assert names == [field[0] for field in Scene._fields_]
+
+
+def test_lines_have_the_margins_of_their_declaration() -> None:
+    declared_sizes = re.findall(r"(MARGIN|LINES_BEYOND) = (\d+)", (NATIVE / "places.h").read_text())
+    assert declared_sizes == [("MARGIN", str(MARGIN)), ("LINES_BEYOND", str(LINES_BEYOND))]
 
 
 def test_only_contiguous_memory_has_an_address() -> None:
