@@ -11,10 +11,9 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
 from app.errors import InvalidInput
-from app.evaluation.line_iou import TAU, line_iou_matrix
+from app.evaluation.covering import SLACK, TAU
+from app.evaluation.line_iou import line_iou_matrix
 from app.vision.segments import Segments
-
-_SLACK = 1e-9  # a value that equals the threshold but for rounding reaches it
 
 
 class Matches(NamedTuple):
@@ -48,15 +47,44 @@ def match_one_to_one(matrix: csr_array | NDArray[np.float64], threshold: float) 
         >>> match_one_to_one(np.array([[0.9, 0.8], [0.8, 0.0]]), 0.5).column
         array([1, 0])
     """
+    entries = coo_array(matrix)
+    row, column = (coordinate.astype(np.int64) for coordinate in entries.coords)
+    return match_pairs(row, column, entries.data.astype(np.float64), threshold)
+
+
+def match_pairs(
+    rows: NDArray[np.int64],
+    columns: NDArray[np.int64],
+    values: NDArray[np.float64],
+    threshold: float,
+    *,
+    most_pairs: bool = True,
+) -> Matches:
+    """Match rows and columns one-to-one, given the pairs that are worth something; see `match_one_to_one`.
+
+    Args:
+        rows: int64 ``(E,)``.
+        columns: int64 ``(E,)``; a pair of row and column is there once at most.
+        values: float64 ``(E,)`` in [0, 1].
+        threshold: Pairs below it don't match; above 0.
+        most_pairs: Whether more pairs go before a greater sum; else the sum alone decides.
+
+    Raises:
+        InvalidInput: When the threshold isn't in (0, 1].
+    """
     if not 0.0 < threshold <= 1.0:
         raise InvalidInput(f"a threshold of {threshold} matches nothing sensible", expected="above 0 and at most 1")
-    entries = coo_array(matrix)
-    reaches = entries.data >= threshold - _SLACK
-    rows, columns = (coordinate[reaches].astype(np.int64) for coordinate in entries.coords)
-    values = entries.data[reaches].astype(np.float64)
+    reaches = values >= threshold - SLACK
+    rows, columns, values = rows[reaches], columns[reaches], values[reaches]
 
-    matched = [edges[_assign(rows[edges], columns[edges], values[edges])] for edges in _groups(rows, columns)]
-    chosen = np.concatenate(matched) if matched else np.zeros(0, np.int64)
+    # most pairs rival no other one
+    rivals = (np.bincount(rows)[rows] > 1) | (np.bincount(columns)[columns] > 1) if len(rows) else np.zeros(0, bool)
+    matched = [np.flatnonzero(~rivals)]
+    contested = np.flatnonzero(rivals)
+    for group in _groups(rows[contested], columns[contested]):
+        edges = contested[group]
+        matched.append(edges[_assign(rows[edges], columns[edges], values[edges], most_pairs)])
+    chosen = np.concatenate(matched)
     chosen = chosen[np.argsort(rows[chosen])]
     return Matches(rows[chosen], columns[chosen], values[chosen])
 
@@ -88,14 +116,16 @@ def _groups(rows: NDArray[np.int64], columns: NDArray[np.int64]) -> list[NDArray
     return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
 
 
-def _assign(rows: NDArray[np.int64], columns: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.int64]:
+def _assign(
+    rows: NDArray[np.int64], columns: NDArray[np.int64], values: NDArray[np.float64], most_pairs: bool
+) -> NDArray[np.int64]:
     """Return the edges ``(E,)`` of one connected part that the best assignment uses."""
     if len(values) == 1:
         return np.zeros(1, np.int64)
     row_index, row = np.unique(rows, return_inverse=True)
     column_index, column = np.unique(columns, return_inverse=True)
     # one pair more outweighs whatever all values can add up to
-    pair = min(len(row_index), len(column_index)) + 1.0
+    pair = min(len(row_index), len(column_index)) + 1.0 if most_pairs else 0.0
     gain = np.zeros((len(row_index), len(column_index)))
     edge = np.full(gain.shape, -1, np.int64)
     gain[row, column] = pair + values

@@ -17,11 +17,19 @@ from numpy.typing import NDArray
 from app.errors import InvalidInput
 from app.evaluation.boxes import iou_blocks, padded_boxes
 from app.evaluation.ground_truth import GroundTruth
+from app.evaluation.layout import Layout
+from app.evaluation.metrics import harmonic_mean, quotient
 from app.evaluation.outcome import Outcomes, label_outcomes, prediction_outcomes
 from app.vision.segments import Segments
 
 PROTOCOL = "official-v1"
 IOU_THRESHOLD = 0.5
+
+LAYOUT = Layout((("images", ()), ("precision_sum", ()), ("recall_sum", ()), ("images_with_recall", ())))
+"""What stands where in the tallies of an image, float64 ``(K,)``."""
+
+METRICS = ("official_precision", "official_recall", "official_f1")
+"""What `metrics` returns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +58,18 @@ class ImageScore:
     best_label: NDArray[np.int64]
     outcomes: Outcomes
     protocol: str = PROTOCOL
+
+    @property
+    def tallies(self) -> NDArray[np.float64]:
+        """What is added up over images, float64 ``(K,)``, see `LAYOUT`."""
+        return LAYOUT.pack(
+            {
+                "images": 1,
+                "precision_sum": self.precision,
+                "recall_sum": self.recall or 0.0,
+                "images_with_recall": self.recall is not None,
+            }
+        )
 
 
 @dataclass(frozen=True)
@@ -129,6 +149,18 @@ def total(scores: Sequence[ImageScore]) -> Totals:
     )
 
 
+def metrics(tallies: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Return precision, recall and F1 from tallies ``(..., K)`` that were added up, as `total` does for one set."""
+    part = LAYOUT.unpack(np.asarray(tallies, np.float64))
+    precision = quotient(part["precision_sum"], part["images"])
+    recall = quotient(part["recall_sum"], part["images_with_recall"], empty=0.0)
+    return {
+        "official_precision": precision,
+        "official_recall": recall,
+        "official_f1": harmonic_mean(precision, recall),
+    }
+
+
 def _recall(true_positives: int, labelled: int, predicted: int) -> float | None:
     if labelled:
         return true_positives / labelled
@@ -144,13 +176,14 @@ def _best_overlaps(
     best_label = np.full(count, -1, np.int64)
     on_ignored = np.zeros(count, bool)
     found = np.zeros(len(truth), bool)
+    any_ignored = bool(truth.ignored.any())
     if not len(truth):
         return best_iou, best_label, on_ignored, found
     for rows, iou in iou_blocks(padded_boxes(predictions), padded_boxes(truth.segments)):
         reached = iou >= IOU_THRESHOLD
         found |= reached.any(axis=0)
-        on_ignored[rows] = reached[:, truth.ignored].any(axis=1)
-        counting = np.where(truth.ignored, 0.0, iou)
+        on_ignored[rows] = any_ignored and reached[:, truth.ignored].any(axis=1)
+        counting = np.where(truth.ignored, 0.0, iou) if any_ignored else iou
         best = counting.argmax(axis=1)
         best_iou[rows] = counting[np.arange(len(best)), best]
         best_label[rows] = np.where(best_iou[rows] > 0, best, -1)

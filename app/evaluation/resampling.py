@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,11 +34,21 @@ class Samples:
     def __len__(self) -> int:
         return len(self.lengths)
 
+    @cached_property
+    def weights(self) -> NDArray[np.float64]:
+        """The arc length that each sample stands for, float64 ``(N,)``, px; they add up to the lengths."""
+        return (self.lengths / np.diff(self.offsets))[self.polyline]
+
     @property
     def largest_step(self) -> float:
         """Largest arc length between neighbouring samples, px: 1 but for roundings and polylines under 1.5 px."""
         steps = self.lengths / (np.diff(self.offsets) - 1)
         return float(steps.max(initial=0.0))
+
+
+def sums(group: NDArray[np.int64], values: NDArray[np.float64], groups: int) -> NDArray[np.float64]:
+    """Return the sum of the values ``(N,)`` in each of the groups, float64 ``(groups,)``."""
+    return np.bincount(group, values, groups).astype(np.float64, copy=False)
 
 
 def resample(segments: Segments, step: float = 1.0) -> Samples:

@@ -1,14 +1,21 @@
-"""The result of an evaluation in words and as JSON: ``summary.txt``, ``summary.json``, one file per image."""
+"""The result of an evaluation in words: ``summary.txt``."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from app.evaluation import official_v1, official_v1_fixed
+from app.evaluation.bootstrap import FEWEST_CLUSTERS
 from app.evaluation.consequences import consequences
-from app.evaluation.official_v1 import IOU_THRESHOLD, ImageScore, Totals, total
+from app.evaluation.metric_labels import METRIC_LABELS
 from app.evaluation.outcome import Outcome
+from app.evaluation.protocols import PROTOCOLS, Score
+from app.evaluation.tallies import THRESHOLD
+
+_BOXES = (official_v1.PROTOCOL, official_v1_fixed.PROTOCOL)
+_WIDTH = 38
 
 
 @dataclass(frozen=True)
@@ -16,46 +23,73 @@ class Evaluation:
     """Scores of a set of images.
 
     Attributes:
+        protocol: Name of the protocol that the result is stated under.
         names: Names of the images.
-        scores: Score of each.
+        scores: Score of each under that protocol.
+        totals: Of all protocols, with intervals (`app.evaluation.submission_totals.score_totals`).
         missing: Images without a prediction file: scored as images without predictions.
         extra: Names that have predictions but no labels: not scored.
         min_length: Shorter predictions were left out and shorter labels ignored, px.
     """
 
+    protocol: str
     names: tuple[str, ...]
-    scores: tuple[ImageScore, ...]
+    scores: tuple[Score, ...]
+    totals: Mapping[str, Any]
     missing: tuple[str, ...] = ()
     extra: tuple[str, ...] = ()
     min_length: float = 0.0
 
     @property
-    def totals(self) -> Totals:
-        """The averages over the images."""
-        return total(self.scores)
+    def precision(self) -> float:
+        """Of all images, under the protocol."""
+        return self._value("precision")
+
+    @property
+    def recall(self) -> float:
+        """Of all images, under the protocol."""
+        return self._value("recall")
+
+    @property
+    def f1(self) -> float:
+        """Of all images, under the protocol."""
+        return self._value("f1")
+
+    def counted(self, side: str) -> dict[Outcome, int]:
+        """Return how many ``predictions`` or ``labels`` have each outcome."""
+        outcomes = [getattr(score.outcomes, side) for score in self.scores]
+        return {outcome: sum(int((each == outcome).sum()) for each in outcomes) for outcome in Outcome}
+
+    def consequences(self) -> list[str]:
+        """Return what a reader of these numbers should know."""
+        scores = [score for score in self.scores if isinstance(score, official_v1.ImageScore)]
+        return consequences(self.names, scores) if len(scores) == len(self.names) else []
+
+    def _value(self, name: str) -> float:
+        prefix = PROTOCOLS[self.protocol].key.removesuffix("f1")
+        return self.totals["protocols"][self.protocol]["totals"][prefix + name]["value"]
 
 
 def summary_text(evaluation: Evaluation) -> str:
-    """Return ``summary.txt``: the four lines of the paper's script, exactly, then what they leave out."""
-    totals = evaluation.totals
+    """Return ``summary.txt``: four lines, for official-v1 exactly those of the paper's script, then the rest."""
+    predictions, labels = evaluation.counted("predictions"), evaluation.counted("labels")
     lines = [
-        f"Results for Intersection over Union (IoU) of: {IOU_THRESHOLD}",
-        f"Average Precision: {totals.precision:.2f}",
-        f"Average Recall: {totals.recall:.2f}",
-        f"F1 Score;: {totals.f1:.2f}",  # the script's own spelling: programs read this line
+        *_first_lines(evaluation),
         "",
-        f"Protocol: {totals.protocol}",
-        f"Precision, recall, F1: {totals.precision:.6f}, {totals.recall:.6f}, {totals.f1:.6f}",
-        f"Images: {totals.images}",
-        f"Labels: {totals.labels}",
-        f"Predictions: {totals.predictions}",
-        f"True positives: {totals.true_positives}",
+        f"Protocol: {evaluation.protocol}",
+        f"Precision, recall, F1: {evaluation.precision:.6f}, {evaluation.recall:.6f}, {evaluation.f1:.6f}",
+        f"Images: {len(evaluation.names)}",
+        f"Labels: {sum(labels.values()) - labels[Outcome.IGNORED]}",
+        f"Predictions: {sum(predictions.values()) - predictions[Outcome.IGNORED]}",
+        f"True positives: {predictions[Outcome.HIT]}",
     ]
     if evaluation.min_length > 0:
         lines.append(f"Shortest line that counts: {evaluation.min_length:g} px")
     lines += ["", *_extremes(evaluation.names, evaluation.scores)]
-    lines += ["", "What to know about these numbers:"]
-    lines += [f"- {consequence}" for consequence in consequences(evaluation.names, evaluation.scores)]
+    known = evaluation.consequences()
+    if known:
+        lines += ["", "What to know about these numbers:", *(f"- {consequence}" for consequence in known)]
+    lines += [*_metrics(evaluation.totals), *_errors(evaluation.totals), *_strata(evaluation.totals)]
     for title, names in (
         ("Images without a prediction file, scored as empty", evaluation.missing),
         ("Predictions without a label file, not scored", evaluation.extra),
@@ -65,64 +99,19 @@ def summary_text(evaluation: Evaluation) -> str:
     return "\n".join(lines) + "\n"
 
 
-def summary_content(evaluation: Evaluation) -> dict[str, Any]:
-    """Return the content of ``summary.json``; numbers are not rounded."""
-    totals, scores = evaluation.totals, evaluation.scores
-    return {
-        "protocol": totals.protocol,
-        "iou_threshold": IOU_THRESHOLD,
-        "precision": totals.precision,
-        "recall": totals.recall,
-        "f1": totals.f1,
-        "images": totals.images,
-        "counts": {
-            "labels": totals.labels,
-            "predictions": totals.predictions,
-            "true_positives": totals.true_positives,
-            "ignored_labels": sum(int((score.outcomes.labels == Outcome.IGNORED).sum()) for score in scores),
-            "ignored_predictions": sum(int((score.outcomes.predictions == Outcome.IGNORED).sum()) for score in scores),
-            "images_without_recall": totals.without_recall,
-        },
-        "min_length": evaluation.min_length,
-        "missing": list(evaluation.missing),
-        "extra": list(evaluation.extra),
-        "consequences": consequences(evaluation.names, scores),
-    }
+def _first_lines(evaluation: Evaluation) -> list[str]:
+    values = f"{evaluation.precision:.2f}", f"{evaluation.recall:.2f}", f"{evaluation.f1:.2f}"
+    names = ("Precision", "Recall", "F1 Score")
+    if evaluation.protocol == official_v1.PROTOCOL:
+        names = ("Average Precision", "Average Recall", "F1 Score;")  # the script's own spelling: programs read it
+    overlap = "Intersection over Union (IoU)" if evaluation.protocol in _BOXES else "line IoU"
+    return [
+        f"Results for {overlap} of: {THRESHOLD}",
+        *(f"{name}: {value}" for name, value in zip(names, values, strict=True)),
+    ]
 
 
-def image_content(name: str, score: ImageScore, prediction_index: Sequence[int] | None = None) -> dict[str, Any]:
-    """Return the content of one file of ``individual_results/``.
-
-    Args:
-        name: Name of the image.
-        score: Its score.
-        prediction_index: Place of each scored prediction in its file, if short ones were left out.
-    """
-    outcomes = score.outcomes
-    index = range(len(score.best_iou)) if prediction_index is None else prediction_index
-    rows = zip(index, outcomes.predictions.tolist(), score.best_iou.tolist(), score.best_label.tolist(), strict=True)
-    return {
-        "name": name,
-        "protocol": score.protocol,
-        "precision": score.precision,
-        "recall": score.recall,
-        "true_positives": score.true_positives,
-        "predictions": score.predictions,
-        "labels": score.labels,
-        "prediction_outcomes": [
-            {
-                "index": int(place),
-                "outcome": Outcome(outcome).name.lower(),
-                "best_iou": iou,
-                "best_label": None if label < 0 else label,
-            }
-            for place, outcome, iou, label in rows
-        ],
-        "label_outcomes": [Outcome(outcome).name.lower() for outcome in outcomes.labels.tolist()],
-    }
-
-
-def _extremes(names: Sequence[str], scores: Sequence[ImageScore]) -> list[str]:
+def _extremes(names: Sequence[str], scores: Sequence[Score]) -> list[str]:
     lines = []
     precisions = [(score.precision, name) for name, score in zip(names, scores, strict=True)]
     recalls = [(score.recall, name) for name, score in zip(names, scores, strict=True) if score.recall is not None]
@@ -130,4 +119,50 @@ def _extremes(names: Sequence[str], scores: Sequence[ImageScore]) -> list[str]:
         if values:
             (low, lowest), (high, highest) = min(values), max(values)
             lines.append(f"Lowest {word}: {low:.2f} ({lowest}), highest: {high:.2f} ({highest})")
+    return lines
+
+
+def _metrics(totals: Mapping[str, Any]) -> list[str]:
+    lines = ["", f"All protocols, {_uncertainty(totals)}:"]
+    for protocol in reversed(PROTOCOLS):
+        values = totals["protocols"][protocol]["totals"]
+        lines += [f"  {protocol}", *(_metric(key, values[key]) for key in METRIC_LABELS if key in values)]
+        if protocol == official_v1.PROTOCOL and values["official_recall"]["value"] > 1:
+            lines.append("    Recall exceeds 1, as several predictions count for one label.")
+    return lines
+
+
+def _uncertainty(totals: Mapping[str, Any]) -> str:
+    images, clusters = totals["images"], totals["clusters"]
+    if clusters < FEWEST_CLUSTERS:
+        return "without intervals, which a single " + ("image" if images == 1 else "sequence") + " can't give"
+    of = f"{images} images" + (f" in {clusters} sequences" if clusters < images else "")
+    return f"with {100 * totals['level']:g} % intervals (bootstrap, {totals['draws']} draws of {of})"
+
+
+def _metric(key: str, estimate: Mapping[str, float | None]) -> str:
+    label = METRIC_LABELS[key]
+    value, low, high = (_number(estimate[end], label.factor) for end in ("value", "low", "high"))
+    interval = "" if estimate["low"] is None else f"  [{low}, {high}]"
+    name = f"{label.text}, {label.unit}" if label.unit else label.text
+    return f"    {name:<{_WIDTH}}{value:>8}{interval}"
+
+
+def _number(value: float | None, factor: float) -> str:
+    return "-" if value is None else f"{factor * value:.3f}"
+
+
+def _errors(totals: Mapping[str, Any]) -> list[str]:
+    counts = {name.replace("over_", "over-").replace("_", " "): count for name, count in totals["error_types"].items()}
+    found = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
+    return ["", f"Errors under clearlines-v2: {found or 'none'}"]
+
+
+def _strata(totals: Mapping[str, Any]) -> list[str]:
+    lines = ["", f"clearlines-v2 by kind of line:{'F1':>15}{'P':>8}{'R':>8}{'TP':>8}{'FP':>8}{'FN':>8}"]
+    for kind, strata in totals["strata"].items():
+        for stratum in strata:
+            shares = "".join(f"{stratum[key]['value']:>8.3f}" for key in ("f1", "precision", "recall"))
+            counts = "".join(f"{stratum[key]:>8}" for key in ("tp", "fp", "fn"))
+            lines.append(f"  {kind + ' ' + stratum['name']:<{_WIDTH - 3}}{shares}{counts}")
     return lines

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
@@ -7,8 +8,10 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from rich.console import Console
 
-from app.commands.evaluate import evaluate
+from app.commands.evaluate import Scoring, evaluate
+from app.commands.reports import print_evaluation
 from app.errors import InvalidFile, InvalidInput, NotFound
 from app.formats.json_writer import write_json
 from app.formats.label_npy import write_label_npy
@@ -173,7 +176,7 @@ def test_of_labels_with_verdicts_those_kept_count(folders: Path) -> None:
 def test_short_lines_can_be_left_out(folders: Path) -> None:
     save(folders / "labels/other.json", [horizontal(20), horizontal(60, 40)])
     save(folders / "found/other_edge_segments_filtered.npy", [horizontal(80, 40), horizontal(20), horizontal(60, 60)])
-    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", min_length=50)
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", scoring=Scoring(min_length=50))
     one = read(folders / "out/individual_results/other.json")
     assert [(row["index"], row["outcome"]) for row in one["prediction_outcomes"]] == [(1, "hit"), (2, "ignored")]
     assert (one["precision"], one["recall"]) == (1.0, 1.0)
@@ -222,12 +225,101 @@ def test_no_labels_say_what_was_looked_for(folders: Path) -> None:
 @pytest.mark.parametrize("min_length", [-1.0, float("nan"), float("inf")])
 def test_a_senseless_length_is_refused(folders: Path, min_length: float) -> None:
     with pytest.raises(InvalidInput, match="length"):
-        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", min_length=min_length)
+        evaluate(
+            folders / "labels", folders / "found", pictures=folders / "out/p", scoring=Scoring(min_length=min_length)
+        )
 
 
 def test_an_unknown_protocol_is_refused(folders: Path) -> None:
     with pytest.raises(InvalidInput, match="official-v1"):
-        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", protocol="mine")
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", scoring=Scoring(protocol="mine"))
+
+
+@pytest.mark.parametrize("protocol", ["official-v1-fixed", "clearlines-v2"])
+def test_the_result_can_be_stated_under_each_protocol(folders: Path, protocol: str) -> None:
+    save_image(folders / "images/KITTI/000001.png")
+    done = evaluate(
+        folders / "labels",
+        folders / "found",
+        images=folders / "images",
+        pictures=folders / "out/p",
+        scoring=Scoring(protocol, draws=50),
+    )
+    summary = read(folders / "out/summary.json")
+    assert summary["protocol"] == protocol
+    # 6 labels, 5 predictions, 4 of them right
+    assert (summary["precision"], summary["recall"]) == pytest.approx((4 / 5, 4 / 6))
+    assert summary["f1"] == done.evaluation.f1 == pytest.approx(8 / 11)
+    assert (folders / "out/summary.txt").read_text().splitlines()[1:4] == [
+        "Precision: 0.80",
+        "Recall: 0.67",
+        "F1 Score: 0.73",
+    ]
+    one = read(folders / "out/individual_results/KITTI/000001.json")
+    assert [row["outcome"] for row in one["prediction_outcomes"]] == ["hit", "false_alarm"]
+    assert ("error_type" in one["prediction_outcomes"][0]) == (protocol == "clearlines-v2")
+    assert (folders / "out/p/KITTI/000001.png").is_file()
+
+
+def test_draws_and_seed_move_intervals_alone(folders: Path) -> None:
+    found = []
+    for seed in (0, 0, 1):
+        evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", scoring=Scoring(draws=7, seed=seed))
+        totals = read(folders / "out/summary.json")["totals"]
+        assert totals["draws"] == 7
+        found.append(totals["protocols"]["clearlines-v2"]["totals"]["mean_liou"])
+    assert found[0] == found[1]
+    assert found[0]["value"] == found[2]["value"]
+
+
+@pytest.mark.parametrize("draws", [0, -1, 10**9])
+def test_a_senseless_number_of_draws_is_refused(draws: int) -> None:
+    with pytest.raises(InvalidInput, match="draws"):
+        Scoring(draws=draws)
+
+
+def test_the_tables_beside_the_images_say_source_sequence_and_camera(folders: Path) -> None:
+    for name in ("KITTI/000000", "KITTI/000001", "other", "unlabelled"):
+        save_image(folders / f"data/images/{name}.png")
+    table = (
+        "name,camera,source,sequence\nKITTI/000000,left,KITTI raw,7\nKITTI/000001.png,left,KITTI raw,7\nunlabelled,,,\n"
+    )
+    (folders / "data/images.csv").write_text(table)
+    K = [[150, 0, 80], [0, 150, 50], [0, 0, 1]]
+    (folders / "data/cameras.json").write_text(
+        json.dumps({"left": {"width": 160, "height": 100, "K": K, "D": [0.1, 0, 0, 0]}})
+    )
+    evaluate(folders / "labels", folders / "found", images=folders / "data/images", pictures=folders / "out/p")
+    totals = read(folders / "out/summary.json")["totals"]
+    assert (totals["images"], totals["clusters"]) == (3, 2)
+    assert [(stratum["name"], stratum["images"]) for stratum in totals["strata"]["source"]] == [
+        ("KITTI raw", 2),
+        ("unknown", 1),
+    ]
+    assert [(camera["camera"], camera["images"]) for camera in totals["cameras"]] == [("160x100", 1), ("left", 2)]
+    assert totals["cameras"][0]["grid"] is None
+    assert totals["cameras"][1]["grid"] > 0
+
+
+def test_without_images_a_folder_is_the_source_and_no_camera_is_known(folders: Path) -> None:
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    totals = read(folders / "out/summary.json")["totals"]
+    assert [stratum["name"] for stratum in totals["strata"]["source"]] == ["KITTI", "unknown"]
+    assert "distance" not in totals["strata"]
+    assert totals["cameras"] == []
+
+
+def test_the_table_has_the_scores_by_source(folders: Path) -> None:
+    done = evaluate(folders / "labels", folders / "found", pictures=folders / "out/p")
+    assert [(row.source, row.images, row.precision) for row in done.table] == [
+        ("KITTI", 2, 0.75),
+        (None, 1, 1.0),
+        ("all", 3, pytest.approx(2.5 / 3)),
+    ]
+    shown = io.StringIO()
+    print_evaluation(done, Console(file=shown, soft_wrap=True), table=True)
+    assert "KITTI             2  0.75  0.50  0.60" in shown.getvalue()
+    assert "Average Precision" not in shown.getvalue()
 
 
 def test_a_second_time_replaces_the_first(folders: Path) -> None:
@@ -245,7 +337,7 @@ def test_york_labels_against_themselves_and_with_pictures(tmp_path: Path) -> Non
         (tmp_path / "labels").mkdir(exist_ok=True)
         (tmp_path / "labels" / path.name).write_bytes(path.read_bytes())
     done = evaluate(tmp_path / "labels", YORK / "labels", images=YORK / "images", pictures=tmp_path / "out/p")
-    assert done.evaluation.totals.precision == 1.0
+    assert done.evaluation.precision == 1.0
     assert done.without_picture == ()
     assert len(done.evaluation.extra) == len(sorted(YORK.glob("labels/*.npy"))) - 3
     assert len(list((tmp_path / "out/p").glob("*.png"))) == 3

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from app.evaluation import line_iou
+from app.evaluation import nearest_samples
 from app.evaluation.line_iou import line_iou_matrix
 from app.vision.segments import Segments
 
@@ -164,5 +164,5 @@ def test_equals_its_definition_on_straight_lines(angle, across, along, length, t
 def test_a_bound_on_memory_changes_no_value(monkeypatch: pytest.MonkeyPatch) -> None:
     a, b = Segments.from_list(scene(4)), Segments.from_list(disturbed(scene(4), 5))
     whole = line_iou_matrix(a, b).toarray()
-    monkeypatch.setattr(line_iou, "_BLOCK_PAIRS", 500)
+    monkeypatch.setattr(nearest_samples, "_PAIRS_LISTED", 50)
     assert line_iou_matrix(a, b).toarray() == pytest.approx(whole, abs=1e-12)

@@ -10,6 +10,7 @@ from scipy.sparse import csr_array
 
 from app.errors import InvalidInput
 from app.evaluation import match_one_to_one, match_segments
+from app.evaluation.matching import match_pairs
 from app.vision.segments import Segments
 
 
@@ -24,6 +25,16 @@ def test_the_most_pairs_come_before_the_greatest_sum() -> None:
 
 def test_among_as_many_pairs_the_greatest_sum_wins() -> None:
     assert pairs([[0.6, 0.9], [0.8, 0.7]]) == [(0, 1), (1, 0)]
+
+
+def test_fewer_pairs_of_a_greater_sum_win_where_that_is_asked_for() -> None:
+    # 0 - 0 - 1 - 1 - 2 - 2 is a chain whose inner two links are worth more than its outer three
+    rows, columns = np.array([0, 1, 1, 2, 2]), np.array([0, 0, 1, 1, 2])
+    values = np.array([0.51, 1.0, 0.51, 1.0, 0.51])
+    most = match_pairs(rows, columns, values, 0.5)
+    best = match_pairs(rows, columns, values, 0.5, most_pairs=False)
+    assert list(zip(most.row.tolist(), most.column.tolist(), strict=True)) == [(0, 0), (1, 1), (2, 2)]
+    assert list(zip(best.row.tolist(), best.column.tolist(), strict=True)) == [(1, 0), (2, 1)]
 
 
 def test_a_row_or_column_is_used_once() -> None:
