@@ -24,6 +24,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+tokens = typer.Typer(help="Names and roles under which people and programs ask a server.", no_args_is_help=True)
+app.add_typer(tokens, name="token")
 INTERRUPTED = 130  # exit status after Ctrl-C
 terminal = Console(stderr=True, highlight=False, soft_wrap=True)
 
@@ -48,10 +50,13 @@ def demo(data: DataDir = None, port: Port = None, no_browser: NoBrowser = False)
     settings = demo_settings(_settings(data_dir=data, port=port))
     with listen(settings.host, settings.port) as server:
         from app.commands.demo import prepare_demo
+        from app.commands.demo_board import prepare_board
         from app.commands.serve import run_server
 
         with progress_bar("Drawing streets") as report:
             slug = prepare_demo(settings, progress=report)
+        with progress_bar("Making a leaderboard") as report:
+            prepare_board(settings, progress=report)
         _announce(address_of(server), settings.data_dir)
         run_server(settings, server, open_at=None if no_browser else f"/datasets/{slug}")
 
@@ -125,12 +130,18 @@ def evaluate(
     output: Annotated[
         Path, typer.Option(metavar="PICTURES", help="Folder for the pictures; summaries go beside it.")
     ] = (Path("evaluation/visualization")),
-    protocol: Annotated[str, typer.Option(help="How to score.")] = "official-v1",
+    protocol: Annotated[
+        str, typer.Option(help="official-v1, official-v1-fixed or clearlines-v2: what comes first and is drawn.")
+    ] = "official-v1",
     min_length: Annotated[float, typer.Option(help="Shorter segments don't count, px.")] = 0.0,
+    draws: Annotated[int, typer.Option(min=1, help="Draws of the bootstrap that intervals are taken from.")] = 2000,
+    seed: Annotated[int, typer.Option(min=0, help="Of the draws.")] = 0,
+    table: Annotated[bool, typer.Option("--table", help="Print scores by source, as the paper's Table I.")] = False,
 ) -> None:
     """Score predictions against labels, with pictures, without a server."""
     require_there([ground_truth, predictions, *([] if images is None else [images])])
     require_folder_possible(output)
+    from app.commands.evaluate import Scoring
     from app.commands.evaluate import evaluate as evaluate_folder
     from app.commands.reports import print_evaluation
 
@@ -140,11 +151,10 @@ def evaluate(
             predictions,
             images=images,
             pictures=output,
-            protocol=protocol,
-            min_length=min_length,
+            scoring=Scoring(protocol, min_length, draws, seed),
             progress=report,
         )
-    print_evaluation(result, terminal)
+    print_evaluation(result, terminal, table=table)
     if result.picture_errors:
         raise typer.Exit(1)
 
@@ -206,6 +216,117 @@ def export(
             _settings(data_dir=data), dataset, output, choice, on_file=lambda done: report(done, done)
         )
     terminal.print(f"{len(files)} files are in {output}")
+
+
+@app.command()
+def submit(
+    results: Annotated[Path, typer.Argument(metavar="DIR", help="Folder of one file per image, or one file for all.")],
+    server: Annotated[str, typer.Option(help="Address of the server, http://HOST:PORT.")],
+    split: Annotated[str, typer.Option(help="Slug of the split, as in its address.")],
+    method: Annotated[str, typer.Option(help="Name of your method; made if new.")] = "",
+    label: Annotated[str, typer.Option(help="Your word for this version of it.")] = "",
+    description: Annotated[str, typer.Option(help="What the method does.")] = "",
+    code_url: Annotated[str, typer.Option(help="Where its code is.")] = "",
+    paper_url: Annotated[str, typer.Option(help="Where it is described.")] = "",
+    private: Annotated[bool, typer.Option("--private", help="Keep it off the board.")] = False,
+    anonymous: Annotated[bool, typer.Option("--anonymous", help="Don't show whose a new method is.")] = False,
+    token: Annotated[str | None, typer.Option(envvar="CLEARLINES_TOKEN", help="Who hands in.")] = None,
+    validate: Annotated[bool, typer.Option("--validate", help="Check the files only.")] = False,
+) -> None:
+    """Hand results in at a server and wait for their score; invalid files end with 1 and all that is wrong."""
+    from app.commands import submission_reports as reports
+    from app.commands.submit import Target
+    from app.commands.submit import submit as hand_in
+    from app.commands.submit import validate as check
+    from app.formats.submission_problems import InvalidSubmission
+
+    target = Target(server, split, token)
+    given = {"label": label, "description": description, "code_url": code_url, "paper_url": paper_url}
+    fields = {"method": method, **{name: value for name, value in given.items() if value}}
+    fields |= {"visibility": "private"} if private else {}
+    fields |= {"anonymous": "true"} if anonymous else {}
+    try:
+        if validate:
+            reports.print_validation(check(target, results), terminal)
+            return
+        if not method:
+            raise InvalidInput("whose results are these?", where="--method", expected="the name of your method")
+        with progress_bar("Scoring") as report:
+            submission = hand_in(target, results, fields, progress=report)
+    except InvalidSubmission as error:
+        reports.print_errors(error, terminal)
+        raise typer.Exit(1) from error
+    reports.print_submission(submission, server, terminal)
+    if submission["status"] != "scored":
+        raise typer.Exit(1)
+
+
+@app.command()
+def baseline(
+    split: Annotated[str, typer.Argument(metavar="SPLIT", help="Its slug, as in its address.")], data: DataDir = None
+) -> None:
+    """Put the pre-labelling pipeline and OpenCV's LSD on a split's board."""
+    from app.commands.baseline import queue_baselines, score_queued
+
+    settings = _settings(data_dir=data)
+    with progress_bar("Detecting") as report:
+        ids = queue_baselines(settings, split, progress=report)
+    with progress_bar("Scoring") as report:
+        rows = score_queued(settings, ids, progress=report)
+    for row in rows:
+        number = "" if row.f1 is None else f", F1 {row.f1:.3f}"
+        terminal.print(f"{row.name} ({row.label}): {row.status}{number}", markup=False)
+    if any(row.status != "scored" for row in rows):
+        raise typer.Exit(1)
+
+
+@app.command()
+def card(
+    dataset: Annotated[str, typer.Argument(metavar="DATASET", help="Its slug, as in its address.")],
+    output: Annotated[Path | None, typer.Option(help="Folder for card.json and card.png, made if missing.")] = None,
+    data: DataDir = None,
+) -> None:
+    """Tell what a dataset holds, and how its candidates did against its labels."""
+    if output is not None:
+        require_folder_possible(output)
+    from app.commands.card import dataset_card_files, print_card
+
+    print_card(dataset_card_files(_settings(data_dir=data), dataset, output), Console(highlight=False, soft_wrap=True))
+
+
+@tokens.command("create")
+def create_token(
+    name: Annotated[str, typer.Argument(help="Of its holder; what they do is stored under it.")],
+    role: Annotated[str, typer.Option(help="reader, submitter, annotator, maintainer or owner.")],
+    expires: Annotated[float | None, typer.Option(metavar="DAYS", help="Good for so many days.")] = None,
+    data: DataDir = None,
+) -> None:
+    """Make a token and print it, this once."""
+    from app.commands.token import make_token
+
+    token = make_token(_settings(data_dir=data), name, role, days=expires)
+    terminal.print(f"token of {token.name}, {token.role}; it is shown this once:", markup=False)
+    typer.echo(token.text)
+
+
+@tokens.command("list")
+def list_tokens(data: DataDir = None) -> None:
+    """List names, roles and times of all tokens."""
+    from app.commands.token import print_tokens
+
+    print_tokens(_settings(data_dir=data), Console(highlight=False, soft_wrap=True))
+
+
+@tokens.command("revoke")
+def revoke_token(
+    name: Annotated[str, typer.Argument(help="As the token was made with.")],
+    data: DataDir = None,
+) -> None:
+    """End a token; what was done under its name stays."""
+    from app.commands.token import end_token
+
+    end_token(_settings(data_dir=data), name)
+    terminal.print(f"the token of {name} is revoked", markup=False)
 
 
 def main() -> None:

@@ -10,7 +10,9 @@
             NoHistory               a segment that nobody can tell how it was found     404
         Conflict                    the state of things doesn't allow it now            409
             UndecidedLeft           candidates wait for a verdict                       409
+        Unauthenticated             a token that is not good                            401
         Forbidden                   not allowed for whom, or from where, it was asked   403
+        TooMany                     more often than is allowed for now                  429
         Unavailable                 can't be done now; trying again may help            503
         Cancelled                   called off by whoever asked for it                  409
         BrokenInstallation          a part of ClearLines itself is missing              500
@@ -149,11 +151,25 @@ class UndecidedLeft(Conflict):
     code = "undecided-left"
 
 
+class Unauthenticated(ClearLinesError):
+    """Whoever asks isn't who they say: the token is unknown, expired or revoked."""
+
+    status = 401
+    code = "unauthenticated"
+
+
 class Forbidden(ClearLinesError):
     """Not allowed for whom, or from where, it was asked."""
 
     status = 403
     code = "forbidden"
+
+
+class TooMany(ClearLinesError):
+    """More often than is allowed for now."""
+
+    status = 429
+    code = "too-many"
 
 
 class Unavailable(ClearLinesError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import platformdirs
 from pydantic import Field
@@ -35,6 +35,10 @@ class Settings(BaseSettings):
     port: int = Field(default=8765, ge=0, le=65535, description="Port to listen on; 0 takes a free one.")
     person: str = Field(default="owner", min_length=1, max_length=200, description="Whose decisions are stored.")
 
+    anonymous_role: Literal["owner", "reader"] = Field(
+        default="owner", description="Who asks without a token: owner in local mode; reader where others ask too."
+    )
+
     workers: int | None = Field(default=None, ge=1, description="Processes of the pipeline; one per core if unset.")
     heartbeat_seconds: float = Field(default=5.0, gt=0, description="How often work in progress says that it lives.")
     stale_seconds: float = Field(default=30.0, gt=0, description="Without a heartbeat for so long, work is taken back.")
@@ -47,6 +51,25 @@ class Settings(BaseSettings):
     max_file_bytes: int = Field(default=256 * MEBIBYTE, ge=1, description="Size of one image or label file.")
     max_archive_members: int = Field(default=20_000, ge=1, description="Files in one uploaded zip.")
     max_archive_bytes: int = Field(default=8192 * MEBIBYTE, ge=1, description="Size of an uploaded zip once unpacked.")
+
+    max_submission_bytes: int = Field(default=256 * MEBIBYTE, ge=1, description="Size of one submission as uploaded.")
+    max_submission_files: int = Field(default=20_000, ge=1, description="Files in one submission.")
+    max_submission_unpacked_bytes: int = Field(
+        default=1024 * MEBIBYTE, ge=1, description="Size of one submission once unpacked."
+    )
+    max_submission_segments: int = Field(default=500_000, ge=1, description="Segments of one submission.")
+    max_image_segments: int = Field(default=20_000, ge=1, description="Segments of a submission in one image.")
+    max_submission_points: int = Field(default=20_000_000, ge=1, description="Points of one submission.")
+    max_segment_points: int = Field(default=20_000, ge=1, description="Points of one segment of a submission.")
+    scoring_seconds: float = Field(default=300.0, gt=0, description="Time that one task of a submission may take.")
+    scoring_megabytes: int = Field(default=2048, ge=64, description="Memory that one task of a submission may take.")
+    validation_seconds: float = Field(
+        default=120.0, gt=0, description="How long an upload's sender waits to be told whether it is valid."
+    )
+    webhook_seconds: float = Field(default=5.0, gt=0, description="How long a webhook may take to answer.")
+    webhook_private_addresses: bool = Field(
+        default=False, description="Whether webhooks may be sent to addresses that aren't public."
+    )
 
     @property
     def database_address(self) -> str | URL:

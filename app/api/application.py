@@ -14,19 +14,55 @@ from starlette.routing import BaseRoute, Match
 
 from app import __version__
 from app.api.deps import Server
+from app.api.gate import Gate
 from app.api.guard import Guard
 from app.api.head import HeadAsGet
 from app.api.problems import answers, install_problem_handlers
-from app.api.routers import cameras, datasets, exports, images, labelling, runs, segments, system, uploads
+from app.api.routers import (
+    board,
+    cameras,
+    cards,
+    datasets,
+    exports,
+    images,
+    labelling,
+    methods,
+    runs,
+    segments,
+    session,
+    splits,
+    submissions,
+    system,
+    uploads,
+)
 from app.clock import utc_now
 from app.db.session import open_database, upgrade
 from app.jobs.dispatcher import Dispatcher
 from app.jobs.histories import Histories
 from app.jobs.housekeeping import Housekeeper
+from app.jobs.scoring_desk import scoring_desk
+from app.services.card_tables import CardTables
 from app.settings import Settings
 from app.storage import BlobStore
 
 METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
+ROUTERS = (
+    system,
+    session,
+    datasets,
+    cards,
+    uploads,
+    images,
+    labelling,
+    segments,
+    runs,
+    cameras,
+    exports,
+    splits,
+    submissions,
+    methods,
+    board,
+)
 STATIC = Path(__file__).resolve().parent.parent / "static"
 DESCRIPTION = """
 Turn street images into ground truth for straight edge-segments: upload, pre-label, keep or reject, export.
@@ -45,7 +81,9 @@ def create_application(settings: Settings) -> FastAPI:
         blobs = BlobStore(settings.blob_dir)
         dispatcher = Dispatcher(database, blobs, settings, utc_now)
         histories = Histories(blobs, settings.max_image_pixels)
-        application.state.server = Server(settings, database, blobs, dispatcher, histories, utc_now)
+        tables = CardTables(database)
+        desk = scoring_desk(settings, blobs)
+        application.state.server = Server(settings, database, blobs, dispatcher, histories, tables, utc_now, desk)
         housekeeper = Housekeeper(database, blobs, grace=settings.grace, clock=utc_now)
         dispatcher.start()
         housekeeper.start()
@@ -55,6 +93,7 @@ def create_application(settings: Settings) -> FastAPI:
             housekeeper.stop()
             dispatcher.stop()
             histories.stop()
+            desk.stop()
             database.close()
 
     application = FastAPI(
@@ -65,14 +104,15 @@ def create_application(settings: Settings) -> FastAPI:
         openapi_url="/api/openapi.json",
         docs_url=None,
         redoc_url=None,
-        responses=answers(403, 422),
+        responses=answers(401, 403, 422),
     )
     install_problem_handlers(application)
-    for router in (system, datasets, uploads, images, labelling, segments, runs, cameras, exports):
+    for router in ROUTERS:
         application.include_router(router.router, prefix="/api")
     application.include_router(_unknown_addresses(list(application.routes)))
     if (STATIC / "index.html").is_file():
         application.frontend("/", directory=str(STATIC))
+    application.add_middleware(Gate)
     application.add_middleware(
         GZipMiddleware,
         minimum_size=2000,

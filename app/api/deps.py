@@ -13,6 +13,9 @@ from sqlalchemy.orm import Session
 from app.db.session import Database
 from app.jobs.dispatcher import Dispatcher
 from app.jobs.histories import Histories
+from app.jobs.scoring_desk import ScoringDesk
+from app.services.access import Viewer
+from app.services.card_tables import CardTables
 from app.settings import Settings
 from app.storage import BlobStore
 
@@ -26,7 +29,9 @@ class Server:
     blobs: BlobStore
     dispatcher: Dispatcher
     histories: Histories
+    card_tables: CardTables
     clock: Callable[[], datetime]
+    desk: ScoringDesk
 
 
 def get_server(request: Request) -> Server:
@@ -44,6 +49,12 @@ def get_reader(server: ServerDep) -> Iterator[Session]:
         yield session
 
 
+def get_viewer(request: Request) -> Viewer:
+    """Return who asks, as the gate has found them."""
+    viewer: Viewer = request.state.viewer
+    return viewer
+
+
 def get_now(server: ServerDep) -> datetime:
     """Return the time of the request, UTC."""
     return server.clock()
@@ -51,5 +62,6 @@ def get_now(server: ServerDep) -> datetime:
 
 Reader = Annotated[Session, Depends(get_reader, scope="function")]
 Now = Annotated[datetime, Depends(get_now)]
+ViewerDep = Annotated[Viewer, Depends(get_viewer)]
 Limit = Annotated[int, Query(ge=1, le=500, description="At most this many.")]
 Cursor = Annotated[str | None, Query(max_length=2000, description="From ``next_cursor`` of the page before.")]

@@ -13,7 +13,7 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 
-from app.errors import ClearLinesError
+from app.errors import ClearLinesError, Unauthenticated
 
 MEDIA_TYPE = "application/problem+json"
 logger = logging.getLogger(__name__)
@@ -63,7 +63,10 @@ def problem_response(status: int, code: str, message: str, **fields: Any) -> JSO
 def problem_of(error: ClearLinesError) -> JSONResponse:
     """Return the problem document of an error of the tree."""
     fields = error.as_dict()
-    return problem_response(error.status, fields.pop("code"), fields.pop("message"), **fields)
+    response = problem_response(error.status, fields.pop("code"), fields.pop("message"), **fields)
+    if isinstance(error, Unauthenticated):
+        response.headers["WWW-Authenticate"] = "Bearer"
+    return response
 
 
 def answers(*statuses: int) -> dict[int | str, dict[str, Any]]:

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from app.evaluation.summary import summary_text
+from app.evaluation.table_one import table_text
 
 if TYPE_CHECKING:  # each command loads what it needs alone, not the others' too
     from app.commands.evaluate import EvaluatedFolder
@@ -36,9 +37,9 @@ def print_prelabel(report: PrelabelReport, console: Console) -> None:
     _print_failed(((name, str(error)) for name, error in report.failed.items()), console)
 
 
-def print_evaluation(result: EvaluatedFolder, console: Console) -> None:
-    """Tell the scores, as ``summary.txt`` does, and where the rest is."""
-    console.print(summary_text(result.evaluation), markup=False)
+def print_evaluation(result: EvaluatedFolder, console: Console, *, table: bool = False) -> None:
+    """Tell the scores, as ``summary.txt`` does or by source as the paper's Table I, and where the rest is."""
+    console.print(table_text(result.table) if table else summary_text(result.evaluation), markup=False)
     console.print(f"summaries and results per image are in {result.folder}")
     if result.pictures is not None:
         console.print(f"pictures are in {result.pictures}")

@@ -61,7 +61,9 @@ def read_json_set(
     return found
 
 
-def parse_json(data: bytes, *, where: str, limit: int, containers: int = 1_000_000) -> Any:
+def parse_json(
+    data: bytes, *, where: str, limit: int, containers: int = 1_000_000, allow_constants: bool = False
+) -> Any:
     """Parse strict JSON: UTF-8, no NaN or infinity, no key twice.
 
     Args:
@@ -69,6 +71,7 @@ def parse_json(data: bytes, *, where: str, limit: int, containers: int = 1_000_0
         where: Its name, for messages.
         limit: Bytes to accept.
         containers: Lists and objects to accept; each takes about a hundred bytes, even an empty one.
+        allow_constants: Read NaN and infinity as numbers, for a caller that complains of them by their place.
 
     Raises:
         InvalidFile: If it isn't that.
@@ -77,8 +80,9 @@ def parse_json(data: bytes, *, where: str, limit: int, containers: int = 1_000_0
     check_file_size(len(data), where=where, limit=limit)
     if data.count(b"[") + data.count(b"{") > containers:
         raise TooLarge("the file has too many lists and objects", where=where, expected=f"at most {containers:,}")
+    constant = float if allow_constants else _no_constant
     try:
-        return json.loads(data.decode("utf-8-sig"), parse_constant=_no_constant, object_pairs_hook=_no_key_twice)
+        return json.loads(data.decode("utf-8-sig"), parse_constant=constant, object_pairs_hook=_no_key_twice)
     except InvalidInput as error:
         raise InvalidFile(error.message, where=where, expected=error.expected, hint=error.hint) from error
     except UnicodeDecodeError as error:

@@ -39,7 +39,7 @@ def read_npz(data: bytes, *, where: str = "file", limits: SegmentLimits = SEGMEN
         InvalidFile: If an array is missing, of the wrong kind or shape, or broken.
         TooLarge: Over a limit.
     """
-    arrays = _read_arrays(data, where, limits.file_bytes)
+    arrays = read_arrays(data, where, limits.file_bytes)
     if "names" in arrays:
         raise InvalidFile("the file holds several images", where=where, hint="use it as the one file for all images")
     points, offsets = _points(arrays, where), _offsets(arrays, "offsets", where)
@@ -53,7 +53,7 @@ def read_npz_set(data: bytes, *, where: str = "file", limits: SetLimits = SET_LI
     ``names`` (I,) are the images, image i has the segments ``image_offsets[i]:image_offsets[i + 1]``, segment s of the
     file the points ``offsets[s]:offsets[s + 1]``.
     """
-    arrays = _read_arrays(data, where, limits.file_bytes)
+    arrays = read_arrays(data, where, limits.file_bytes)
     names = _array(arrays, "names", where)
     if names.dtype.kind != "U" or names.ndim != 1:
         raise InvalidFile(f"names is {names.dtype} of shape {names.shape}", where=where, expected="(I,) text")
@@ -140,7 +140,18 @@ def _dump(arrays: Mapping[str, NDArray[Any]]) -> bytes:
     return stream.getvalue()
 
 
-def _read_arrays(data: bytes, where: str, limit: int) -> dict[str, NDArray[Any]]:
+def read_arrays(data: bytes, where: str, limit: int) -> dict[str, NDArray[Any]]:
+    """Return the arrays of the file that are known here, by name, as they are: nothing is checked but their sizes.
+
+    Args:
+        data: The file.
+        where: Its name, for messages.
+        limit: Bytes that it may have, packed and unpacked.
+
+    Raises:
+        InvalidFile: If it is no npz, broken, or an array would need unpickling.
+        TooLarge: Over the limit.
+    """
     check_file_size(len(data), where=where, limit=limit)
     arrays: dict[str, NDArray[Any]] = {}
     left = limit

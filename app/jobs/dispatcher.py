@@ -17,9 +17,14 @@ from typing import Any
 from app.db.session import Database
 from app.jobs.executor import make_executor
 from app.jobs.flight import Flight
+from app.jobs.limits import TaskLimits
 from app.jobs.lock import lock_for
+from app.jobs.scoring_steps import scoring_in_hand, scoring_share, scoring_work, submissions_in_hand
+from app.jobs.scoring_work import TotalWork
+from app.jobs.stores import Stores
 from app.jobs.trouble import DATABASE_TROUBLE, reason_of
-from app.jobs.work import DetectWork, EstimateWork, JudgeWork, Stores, Tasks, Work
+from app.jobs.webhooks import Webhooks
+from app.jobs.work import DetectWork, EstimateWork, JudgeWork, Tasks, Work
 from app.services.lens_estimates import finish_settled_runs, pending_estimates, pending_judgements
 from app.services.run_queue import (
     beat,
@@ -29,6 +34,13 @@ from app.services.run_queue import (
     release_lost,
     unsettled_runs,
 )
+from app.services.scoring_queue import (
+    beat_submissions,
+    claim_scoring,
+    has_scoring_work,
+    release_lost_submissions,
+)
+from app.services.submission_limits import submission_limits
 from app.settings import Settings
 from app.storage import BlobStore
 
@@ -60,7 +72,14 @@ class Dispatcher:
         tasks: Tasks | None = None,
     ) -> None:
         self._database = database
-        self._stores = Stores(database, blobs, settings.max_image_pixels)
+        self._stores = Stores(
+            database,
+            blobs,
+            settings.max_image_pixels,
+            max_attempts=settings.max_attempts,
+            submission_limits=submission_limits(settings),
+            task_limits=TaskLimits(settings.scoring_seconds, settings.scoring_megabytes),
+        )
         self._settings = settings
         self._clock = clock
         self._tasks = tasks or Tasks()
@@ -72,6 +91,7 @@ class Dispatcher:
         self._holds_lock = False
         self._last_beat: datetime | None = None
         self._thread: threading.Thread | None = None
+        self._webhooks = Webhooks(database, settings, clock)
 
     def start(self) -> None:
         """Begin to work in the background; what an earlier dispatcher left behind is taken up."""
@@ -79,6 +99,7 @@ class Dispatcher:
             self._stopping.clear()
             self._thread = threading.Thread(target=self._work, name="dispatcher", daemon=True)
             self._thread.start()
+            self._webhooks.start()
 
     def wake(self) -> None:
         """Say that there is new work; safe from any thread."""
@@ -91,6 +112,7 @@ class Dispatcher:
         if self._thread is not None:
             self._thread.join()
             self._thread = None
+            self._webhooks.stop()
 
     def run_until_idle(self, progress: Callable[[], None] | None = None) -> None:
         """Work in this thread until no run has anything left to do.
@@ -138,8 +160,9 @@ class Dispatcher:
         if held and not self._holds_lock:
             with self._database.write() as session:
                 lost = release_lost(session, self._settings.max_attempts)
+                lost += release_lost_submissions(session, self._settings.max_attempts, self._clock())
             if lost:
-                logger.info("took up %d images that were left behind", lost)
+                logger.info("took up %d pieces of work that were left behind", lost)
         if self._holds_lock and not held:
             logger.warning("another dispatcher took over")
             self._flight.clear()
@@ -155,6 +178,8 @@ class Dispatcher:
             else:
                 work.fail(self._stores, reason_of(error), now)
             self._flight.drop(work)
+            if isinstance(work, TotalWork):
+                self._webhooks.wake()
         culprit = self._flight.recover()
         if culprit is not None:
             self._charge(culprit, now)
@@ -188,9 +213,11 @@ class Dispatcher:
         mine = [work.claim.run_image_id for work in self._flight.work if isinstance(work, DetectWork)]
         with self._database.write() as session:
             beat(session, mine, now)
+            beat_submissions(session, submissions_in_hand(self._flight.work), now)
             # a claim whose commit went through although the connection broke is in nobody's hand
             silent = now - timedelta(seconds=self._settings.stale_seconds)
             release_lost(session, self._settings.max_attempts, silent_since=silent)
+            release_lost_submissions(session, self._settings.max_attempts, now, silent_since=silent)
         self._last_beat = now
 
     def _settle(self, now: datetime) -> None:
@@ -205,6 +232,7 @@ class Dispatcher:
         """Take work from the rows in hand, as much as there is room for."""
         if not self._flight.room:
             return
+        self._take_scoring(now)
         known = {work.key for work in self._flight.work}
         with self._database.read() as session:
             steps: list[Work] = [EstimateWork(step) for step in pending_estimates(session)]
@@ -218,6 +246,19 @@ class Dispatcher:
             for claim in claims:
                 # what was lost before may be what killed the server
                 self._flight.add(DetectWork(claim), suspect=claim.attempts > 1)
+
+    def _take_scoring(self, now: datetime) -> None:
+        """Take the work of submissions first: somebody waits for it, and it is short."""
+        with self._database.read() as session:
+            if not has_scoring_work(session):
+                return
+            shared = has_queued_images(session)
+        room = scoring_share(self._flight, shared=shared)
+        if room > 0:
+            with self._database.write() as session:
+                claims = claim_scoring(session, room, scoring_in_hand(self._flight.work), now)
+            for claim in claims:
+                self._flight.add(scoring_work(claim), suspect=claim.claim.attempts > 1)
 
     def _send(self, now: datetime) -> None:
         while (work := self._flight.next()) is not None and not self._stopping.is_set():
@@ -237,7 +278,8 @@ class Dispatcher:
         if self._flight.work:
             return False
         with self._database.read() as session:
-            return not has_queued_images(session) and not unsettled_runs(session, limit=1)
+            pending = has_queued_images(session) or has_scoring_work(session) or unsettled_runs(session, limit=1)
+        return not pending
 
     def _leave(self) -> None:
         """Put work back and let everything go; what can't be put back now, the next dispatcher takes up."""

@@ -43,7 +43,12 @@ class Flight:
     @property
     def room(self) -> int:
         """How much more work may be taken in hand; none while there are suspects."""
-        return 0 if self._suspects else max(IN_FLIGHT_PER_WORKER * self._workers - len(self.work), 0)
+        return 0 if self._suspects else max(self.places - len(self.work), 0)
+
+    @property
+    def places(self) -> int:
+        """How much work may be in hand at once."""
+        return IN_FLIGHT_PER_WORKER * self._workers
 
     def add(self, work: Work, *, suspect: bool = False) -> None:
         """Take work in hand; a suspect runs alone."""

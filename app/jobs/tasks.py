@@ -93,7 +93,7 @@ def detect_task(
     Raises:
         ClearLinesError: Always one of the tree, with the reason.
     """
-    with _errors_that_travel(name):
+    with errors_that_travel(name):
         gray = decode_gray(content, max_pixels=max_pixels)
         found = detect_for_prelabel(gray, DetectionParameters.from_dict(parameters))
         milliseconds = found.seconds * 1000
@@ -119,7 +119,7 @@ def estimate_task(lens_segments: Sequence[bytes], size: tuple[int, int]) -> dict
     Returns:
         ``DistortionEstimate.as_dict()``; a refused one, with reasons, where the segments don't tell.
     """
-    with _errors_that_travel("camera"):
+    with errors_that_travel("camera"):
         return estimate_distortion([read_npz(content).segments for content in lens_segments], size).as_dict()
 
 
@@ -130,7 +130,7 @@ def judge_task(candidates: Segments, distortion: Mapping[str, Any]) -> Judgement
         candidates: S segments, px.
         distortion: ``DistortionEstimate.as_dict()``.
     """
-    with _errors_that_travel("candidates"):
+    with errors_that_travel("candidates"):
         return _judge(candidates, DistortionEstimate.from_dict(distortion))
 
 
@@ -146,7 +146,7 @@ def history_task(content: bytes, name: str, parameters: Mapping[str, Any], *, ma
     Raises:
         ClearLinesError: Always one of the tree, with the reason.
     """
-    with _errors_that_travel(name):
+    with errors_that_travel(name):
         chosen = DetectionParameters.from_dict(parameters)
         # as `detect_for_prelabel`: what is merged and trimmed depends on the shortest segment asked for
         gray = decode_gray(content, max_pixels=max_pixels)
@@ -177,7 +177,13 @@ def _judge(candidates: Segments, estimate: DistortionEstimate) -> Judgement:
 
 
 @contextmanager
-def _errors_that_travel(where: str) -> Iterator[None]:
+def errors_that_travel(where: str, what: str = "the pipeline") -> Iterator[None]:
+    """Turn whatever is raised inside into an error of the tree.
+
+    Args:
+        where: What it is about, where the error doesn't say it itself.
+        what: What is being done, for messages.
+    """
     try:
         yield
     except ClearLinesError as error:
@@ -188,9 +194,9 @@ def _errors_that_travel(where: str) -> Iterator[None]:
             "there isn't enough memory for it", where=where, hint="run with fewer workers, or on a larger machine"
         ) from error
     except Exception as error:
-        logger.exception("the pipeline failed on %s", where)
+        logger.exception("%s failed on %s", what, where)
         raise ClearLinesError(
-            f"the pipeline failed: {type(error).__name__}: {error}",
+            f"{what} failed: {type(error).__name__}: {error}",
             where=where,
-            hint="this is a fault of ClearLines, not of the image; please report it",
+            hint="this is a fault of ClearLines, not of what it was given; please report it",
         ) from None

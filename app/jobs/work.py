@@ -12,7 +12,9 @@ from datetime import datetime
 from typing import Any, Protocol
 
 from app.db.models import Image
-from app.db.session import Database
+from app.evaluation.submission_scoring import ImageRecord
+from app.jobs.scoring_tasks import Validated, score_task, total_task, validate_task
+from app.jobs.stores import Stores
 from app.jobs.tasks import DetectionResult, Judgement, detect_task, estimate_task, judge_task
 from app.services.carrying import match_to_current
 from app.services.detections import FoundCandidates, store_detection
@@ -27,7 +29,6 @@ from app.services.lens_estimates import (
 )
 from app.services.run_parameters import RunParameters
 from app.services.run_queue import Claim, charge_attempt, fail_image, put_back
-from app.storage import BlobStore
 from app.vision.distortion import estimate_distortion
 
 
@@ -38,15 +39,9 @@ class Tasks:
     detect: Callable[..., DetectionResult] = detect_task
     estimate: Callable[..., dict[str, Any]] = estimate_task
     judge: Callable[..., Judgement] = judge_task
-
-
-@dataclass(frozen=True)
-class Stores:
-    """Where work reads and writes."""
-
-    database: Database
-    blobs: BlobStore
-    max_pixels: int
+    validate: Callable[..., Validated] = validate_task
+    score: Callable[..., list[ImageRecord]] = score_task
+    total: Callable[..., dict[str, Any]] = total_task
 
 
 class Work(Protocol):

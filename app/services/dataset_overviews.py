@@ -11,6 +11,8 @@ from sqlalchemy import ColumnElement, Row, and_, func, or_, select
 from sqlalchemy.orm import Session
 
 from app.db.models import Dataset, Image, Review, Run
+from app.services.access import Viewer
+from app.services.concealing import visible_datasets
 from app.services.counts import ReviewCounts, VerdictCounts, verdict_counts
 from app.services.datasets import get_dataset
 from app.services.run_briefs import RunBrief, run_briefs
@@ -45,9 +47,20 @@ class DatasetOverview:
     cover: tuple[int, ...]
 
 
-def list_datasets(session: Session, *, grace: timedelta, deleted: bool = False) -> list[DatasetOverview]:
-    """Return all datasets, newest first; or those that are deleted and can still be restored."""
-    return _overviews(session, Dataset.deleted_at.is_not(None) if deleted else Dataset.deleted_at.is_(None), grace)
+def list_datasets(
+    session: Session, *, grace: timedelta, deleted: bool = False, viewer: Viewer | None = None
+) -> list[DatasetOverview]:
+    """Return all datasets, newest first; or those that are deleted and can still be restored.
+
+    Args:
+        session: Any session.
+        grace: How long what was deleted can be restored.
+        deleted: Deleted ones, instead of the others.
+        viewer: Who asks; what is concealed from them is left out.
+    """
+    which = Dataset.deleted_at.is_not(None) if deleted else Dataset.deleted_at.is_(None)
+    visible = visible_datasets(viewer)
+    return _overviews(session, which if visible is None else and_(which, visible), grace)
 
 
 def dataset_overview(session: Session, slug: str, *, grace: timedelta) -> DatasetOverview:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
@@ -12,9 +13,11 @@ from sqlalchemy.orm import Session
 from app.db.models import Dataset
 from app.errors import Conflict, InvalidInput, NotFound
 from app.services.events import record_event
+from app.services.given import checked_text
 from app.services.slugs import free_slug, slug_of
 
 NAME_LENGTH = 200
+CARD_TEXTS = ("description", "licence", "citation")
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,38 @@ def rename_dataset(session: Session, slug: str, name: str, now: datetime, *, per
         record_event(session, "dataset.renamed", now, dataset_id=dataset.id, person=person, details=details)
         dataset.name = name
         session.flush()
+    return dataset
+
+
+def describe_dataset(
+    session: Session, slug: str, texts: Mapping[str, str | None], now: datetime, *, person: str | None = None
+) -> Dataset:
+    """Change what a dataset's card says.
+
+    Args:
+        session: A writing session.
+        slug: Of the dataset.
+        texts: New values of some of ``CARD_TEXTS``; ``None`` clears one.
+        now: When.
+        person: Who does it.
+
+    Raises:
+        NotFound: When there is no such dataset.
+        InvalidInput: When a text is too long or holds a NUL character.
+    """
+    dataset = get_dataset(session, slug)
+    changed: list[str] = []
+    for field in CARD_TEXTS:
+        text = checked_text(texts.get(field), field)
+        if field not in texts or text == getattr(dataset, field):
+            continue
+        setattr(dataset, field, text)
+        changed.append(field)
+    if changed:
+        session.flush()
+        record_event(
+            session, "dataset.described", now, dataset_id=dataset.id, person=person, details={"fields": changed}
+        )
     return dataset
 
 

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from sqlalchemy import select
-from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Session
 
-from app.db.models import Blob, Dataset, Image, Review
+from app.db.models import Dataset, Image, Review
 from app.errors import ClearLinesError, InvalidInput, Unavailable
 from app.formats.naming import check_image_name, check_names, composed, is_image_path, name_of
 from app.images import ImageHeader, describe
+from app.services.blobs import add_blob_row
 from app.services.cameras import camera_for, default_camera_name
 from app.services.images import NAME_LENGTH, WORD_LENGTH, is_named, name_conflict
 from app.storage import BlobStore
@@ -111,7 +111,7 @@ def add_image(
         return AddedImage(same, existing=True)
     if other := session.scalars(present.where(is_named(received.name))).first():
         raise name_conflict(other.file_name, received.file_name)
-    _add_blob(session, received, now)
+    add_blob_row(session, received.sha256, received.size, received.header.media_type, now)
     if not blobs.exists(received.sha256):
         # a purge took the bytes between receiving them and now; from here on the blob's row protects them
         raise Unavailable("the file was purged while it was added", where=received.file_name, hint="add it again")
@@ -134,14 +134,3 @@ def add_image(
     session.add(image)
     session.flush()
     return AddedImage(image, existing=False)
-
-
-def _add_blob(session: Session, received: ReceivedImage, now: datetime) -> None:
-    insert = postgresql.insert if session.get_bind().dialect.name == "postgresql" else sqlite.insert
-    values = {
-        "sha256": received.sha256,
-        "size": received.size,
-        "media_type": received.header.media_type,
-        "created_at": now,
-    }
-    session.execute(insert(Blob).values(values).on_conflict_do_nothing())

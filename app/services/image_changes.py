@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from enum import Enum
-from typing import Any, Final
+from typing import Any
 
 from sqlalchemy import select, update
 from sqlalchemy.orm import Session
@@ -17,16 +16,8 @@ from app.formats.naming import check_image_name, composed
 from app.services.batches import in_batches
 from app.services.cameras import camera_for, checked_camera_name
 from app.services.events import record_event
+from app.services.given import UNCHANGED, Unchanged
 from app.services.images import NAME_LENGTH, NAMES_SHOWN, WORD_LENGTH, images_of, is_named, name_conflict
-
-
-class Unchanged(Enum):
-    """Stands for a field that is left as it is; ``None`` clears one."""
-
-    UNCHANGED = "unchanged"
-
-
-UNCHANGED: Final = Unchanged.UNCHANGED
 
 
 @dataclass(frozen=True)

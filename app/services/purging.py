@@ -7,10 +7,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from sqlalchemy import delete, exists, select, text, update
+from sqlalchemy import and_, delete, exists, select, text, update
 from sqlalchemy.orm import Session
 
-from app.db.models import Blob, Dataset, Decision, Image, Run, RunImage, Segment
+from app.db.models import (
+    Blob,
+    Dataset,
+    Decision,
+    Image,
+    Run,
+    RunImage,
+    Segment,
+    SplitImage,
+    SplitVersion,
+    Submission,
+)
 from app.db.session import Database
 from app.services.batches import in_batches
 from app.services.candidates import refresh_counts, verdict_of_segment
@@ -18,6 +29,14 @@ from app.storage import BlobStore
 
 IMAGES_AT_ONCE = 100
 BLOBS_AT_ONCE = 1_000
+
+NAMING_BLOBS = (
+    Image.sha256,
+    SplitImage.image_sha256,
+    SplitVersion.truth_sha256,
+    Submission.upload_sha256,
+    Submission.segments_sha256,
+)
 
 # a file without a row may belong to an upload that is still on its way to its row
 YOUNG = timedelta(hours=1)
@@ -109,8 +128,8 @@ def _purge_datasets(database: Database, deadline: datetime) -> int:
 
 
 def _purge_blobs(database: Database, blobs: BlobStore) -> int:
-    """Blobs that no image names."""
-    unused = ~exists().where(Image.sha256 == Blob.sha256)
+    """Blobs that no row names; what was frozen or submitted outlives its dataset."""
+    unused = and_(*(~exists().where(column == Blob.sha256) for column in NAMING_BLOBS))
     removed = 0
     while True:
         with database.write() as session:

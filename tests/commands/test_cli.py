@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-COMMANDS = ("demo", "serve", "prelabel", "evaluate", "synthesize", "import", "export")
+COMMANDS = ("demo", "serve", "prelabel", "evaluate", "synthesize", "import", "export", "card", "token")
 
 
 def test_help_names_every_command(clearlines: Any) -> None:

@@ -9,10 +9,10 @@ from pathlib import Path
 from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
-from sqlalchemy import inspect
+from sqlalchemy import inspect, select, text
 
-from app.db.migrations import configuration
-from app.db.models import Base
+from app.db.migrations import configuration, run_upgrade
+from app.db.models import Base, Camera, Dataset
 from app.db.session import Database, open_database, upgrade
 
 
@@ -48,6 +48,24 @@ def test_downgrade_removes_every_table(database: Database) -> None:
         config.attributes["connection"] = connection
         command.downgrade(config, "base")
     assert inspect(database.engine).get_table_names() == ["alembic_version"]
+
+
+def test_rows_of_the_first_version_stay(tmp_path: Path) -> None:
+    database = open_database(f"sqlite:///{tmp_path}/old.sqlite3")
+    run_upgrade(database.engine, "0001")
+    statements = (
+        "INSERT INTO datasets (slug, name, created_at) VALUES ('street', 'Street', '2025-01-01')",
+        "INSERT INTO cameras (dataset_id, name, width, height, created_at) VALUES (1, 'c', 4, 3, '2025-01-01')",
+    )
+    with database.engine.execution_options(sqlite_begin="IMMEDIATE").begin() as connection:
+        for statement in statements:
+            connection.execute(text(statement))
+    upgrade(database)
+    with database.read() as session:
+        dataset = session.scalars(select(Dataset)).one()
+        assert (dataset.slug, dataset.licence) == ("street", None)
+        assert session.scalars(select(Camera.name)).all() == ["c"]
+    database.close()
 
 
 def test_upgrade_needs_no_working_directory(tmp_path: Path, monkeypatch) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from app.api.deps import Now, Reader, ServerDep
+from app.api.deps import Now, Reader, ServerDep, ViewerDep
 from app.api.problems import answers
 from app.api.schemas.base import RowId
 from app.api.schemas.images import CameraAnswer, CameraChange
@@ -21,14 +21,15 @@ def list_cameras(session: Reader, slug: str) -> list[CameraAnswer]:
 
 
 @router.patch("/cameras/{camera_id}", responses=answers(409))
-def change_camera(server: ServerDep, now: Now, camera_id: RowId, given: CameraChange) -> CameraAnswer:
+def change_camera(
+    server: ServerDep, viewer: ViewerDep, now: Now, camera_id: RowId, given: CameraChange
+) -> CameraAnswer:
     """Rename a camera, or set or clear its reference distortion."""
-    person = server.settings.person
     with server.database.write() as session:
         camera = cameras.get_camera(session, camera_id)
         if given.name is not None:
-            cameras.rename_camera(session, camera, given.name, now, person=person)
+            cameras.rename_camera(session, camera, given.name, now, person=viewer.name)
         if "reference" in given.model_fields_set:
             reference = None if given.reference is None else given.reference.model_dump()
-            cameras.set_reference(session, camera, reference, now, person=person)
+            cameras.set_reference(session, camera, reference, now, person=viewer.name)
         return CameraAnswer.model_validate(cameras.camera_entry(session, camera))

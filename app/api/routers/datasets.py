@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from fastapi import APIRouter, status
 
-from app.api.deps import Now, Reader, ServerDep
+from app.api.deps import Now, Reader, ServerDep, ViewerDep
 from app.api.problems import answers
-from app.api.schemas.datasets import DatasetAnswer, DatasetGiven, Deleted
+from app.api.schemas.datasets import DatasetAnswer, DatasetChange, DatasetGiven, Deleted
 from app.services import dataset_overviews, datasets
 
 router = APIRouter(prefix="/datasets", tags=["datasets"])
 
 
 @router.get("")
-def list_datasets(server: ServerDep, session: Reader, deleted: bool = False) -> list[DatasetAnswer]:
+def list_datasets(server: ServerDep, viewer: ViewerDep, session: Reader, deleted: bool = False) -> list[DatasetAnswer]:
     """List the datasets by name; with ``deleted`` those that can still be restored."""
-    found = dataset_overviews.list_datasets(session, grace=server.settings.grace, deleted=deleted)
+    found = dataset_overviews.list_datasets(session, grace=server.settings.grace, deleted=deleted, viewer=viewer)
     return [DatasetAnswer.model_validate(dataset) for dataset in found]
 
 
 @router.post("", status_code=status.HTTP_201_CREATED, responses=answers(409))
-def create_dataset(server: ServerDep, now: Now, given: DatasetGiven) -> DatasetAnswer:
+def create_dataset(server: ServerDep, viewer: ViewerDep, now: Now, given: DatasetGiven) -> DatasetAnswer:
     """Make an empty dataset."""
     with server.database.write() as session:
-        dataset = datasets.create_dataset(session, given.name, now, person=server.settings.person)
+        dataset = datasets.create_dataset(session, given.name, now, person=viewer.name)
         return _answer(server, session, dataset.slug)
 
 
@@ -34,28 +34,29 @@ def read_dataset(server: ServerDep, session: Reader, slug: str) -> DatasetAnswer
 
 
 @router.patch("/{slug}", responses=answers(404, 409))
-def rename_dataset(server: ServerDep, now: Now, slug: str, given: DatasetGiven) -> DatasetAnswer:
-    """Give a dataset another name; its address stays."""
+def change_dataset(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, given: DatasetChange) -> DatasetAnswer:
+    """Give a dataset another name, which leaves its address as it is, or change what its card says."""
+    texts = {name: getattr(given, name) for name in given.model_fields_set & set(datasets.CARD_TEXTS)}
     with server.database.write() as session:
-        dataset = datasets.rename_dataset(session, slug, given.name, now, person=server.settings.person)
+        dataset = datasets.describe_dataset(session, slug, texts, now, person=viewer.name)
+        if given.name is not None:
+            datasets.rename_dataset(session, slug, given.name, now, person=viewer.name)
         return _answer(server, session, dataset.slug)
 
 
 @router.delete("/{slug}", responses=answers(404))
-def delete_dataset(server: ServerDep, now: Now, slug: str) -> Deleted:
+def delete_dataset(server: ServerDep, viewer: ViewerDep, now: Now, slug: str) -> Deleted:
     """Delete a dataset with all that is in it; it can be restored during the grace period."""
     with server.database.write() as session:
-        deleted = datasets.delete_dataset(
-            session, slug, now, grace=server.settings.grace, person=server.settings.person
-        )
+        deleted = datasets.delete_dataset(session, slug, now, grace=server.settings.grace, person=viewer.name)
         return Deleted.model_validate(deleted)
 
 
 @router.post("/{slug}/restore", responses=answers(404, 409))
-def restore_dataset(server: ServerDep, now: Now, slug: str) -> DatasetAnswer:
+def restore_dataset(server: ServerDep, viewer: ViewerDep, now: Now, slug: str) -> DatasetAnswer:
     """Bring a deleted dataset back."""
     with server.database.write() as session:
-        dataset = datasets.restore_dataset(session, slug, now, person=server.settings.person)
+        dataset = datasets.restore_dataset(session, slug, now, person=viewer.name)
         answer = _answer(server, session, dataset.slug)
     server.dispatcher.wake()
     return answer

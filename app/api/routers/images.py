@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Query, Response
 from fastapi.responses import FileResponse
 
-from app.api.deps import Cursor, Limit, Now, Reader, ServerDep
-from app.api.freshness import IfNoneMatch, fresh_headers, is_held, not_modified
+from app.api.deps import Cursor, Limit, Now, Reader, ServerDep, ViewerDep
+from app.api.freshness import IfNoneMatch
+from app.api.pixels import PIXELS, ThumbnailSize, display_answer, original_answer, thumbnail_answer
 from app.api.problems import answers
 from app.api.schemas.base import ReviewState, RowId
 from app.api.schemas.datasets import Deleted, Restored
@@ -23,20 +23,10 @@ from app.api.schemas.images import (
     PrelabelState,
     Updated,
 )
-from app.errors import NotFound
-from app.images import for_browser, thumbnail
 from app.services import image_changes, image_details, image_lists, images
 from app.services.datasets import get_dataset
 
 router = APIRouter(tags=["images"], responses=answers(404))
-
-
-class ThumbnailSize(IntEnum):
-    """Longer side of a thumbnail, px."""
-
-    SMALL = 160
-    MEDIUM = 320
-    LARGE = 640
 
 
 Sort = Literal["name", "-name", "created", "-created", "candidates", "-candidates"]
@@ -79,31 +69,31 @@ def read_facets(session: Reader, slug: str) -> Facets:
 
 
 @router.patch("/datasets/{slug}/images")
-def change_images(server: ServerDep, now: Now, slug: str, given: ImagesChange) -> Updated:
+def change_images(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, given: ImagesChange) -> Updated:
     """Change camera, source or sequence of many images; all of them or none."""
     with server.database.write() as session:
         count = image_changes.update_images(
-            session, get_dataset(session, slug), given.ids, _changes(given), now, person=server.settings.person
+            session, get_dataset(session, slug), given.ids, _changes(given), now, person=viewer.name
         )
     return Updated(updated=count)
 
 
 @router.post("/datasets/{slug}/images/delete")
-def delete_images(server: ServerDep, now: Now, slug: str, given: ImageIds) -> Deleted:
+def delete_images(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, given: ImageIds) -> Deleted:
     """Delete many images; they can be restored during the grace period."""
     settings = server.settings
     with server.database.write() as session:
         dataset = get_dataset(session, slug)
-        deleted = images.delete_images(session, dataset, given.ids, now, grace=settings.grace, person=settings.person)
+        deleted = images.delete_images(session, dataset, given.ids, now, grace=settings.grace, person=viewer.name)
         return Deleted.model_validate(deleted)
 
 
 @router.post("/datasets/{slug}/images/restore", responses=answers(409))
-def restore_images(server: ServerDep, now: Now, slug: str, given: ImageIds) -> Restored:
+def restore_images(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, given: ImageIds) -> Restored:
     """Bring deleted images back."""
     with server.database.write() as session:
         dataset = get_dataset(session, slug)
-        count = images.restore_images(session, dataset, given.ids, now, person=server.settings.person)
+        count = images.restore_images(session, dataset, given.ids, now, person=viewer.name)
     server.dispatcher.wake()
     return Restored(restored=count)
 
@@ -115,27 +105,26 @@ def read_image(session: Reader, image_id: RowId) -> ImageDetail:
 
 
 @router.patch("/images/{image_id}", responses=answers(409))
-def change_image(server: ServerDep, now: Now, image_id: RowId, given: ImageChange) -> ImageDetail:
+def change_image(server: ServerDep, viewer: ViewerDep, now: Now, image_id: RowId, given: ImageChange) -> ImageDetail:
     """Rename an image, or change its camera, source or sequence."""
-    person = server.settings.person
     with server.database.write() as session:
         image = images.get_image(session, image_id)
         dataset = images.dataset_of(session, image)
-        image_changes.update_images(session, dataset, [image.id], _changes(given), now, person=person)
+        image_changes.update_images(session, dataset, [image.id], _changes(given), now, person=viewer.name)
         if given.name is not None:
-            image_changes.rename_image(session, image, given.name, now, person=person)
+            image_changes.rename_image(session, image, given.name, now, person=viewer.name)
         session.refresh(image)
         return ImageDetail.model_validate(image_details.image_detail(session, image))
 
 
 @router.delete("/images/{image_id}")
-def delete_image(server: ServerDep, now: Now, image_id: RowId) -> Deleted:
+def delete_image(server: ServerDep, viewer: ViewerDep, now: Now, image_id: RowId) -> Deleted:
     """Delete an image; it can be restored during the grace period."""
     settings = server.settings
     with server.database.write() as session:
         image = images.get_image(session, image_id)
         dataset = images.dataset_of(session, image)
-        deleted = images.delete_images(session, dataset, [image.id], now, grace=settings.grace, person=settings.person)
+        deleted = images.delete_images(session, dataset, [image.id], now, grace=settings.grace, person=viewer.name)
         return Deleted.model_validate(deleted)
 
 
@@ -143,30 +132,13 @@ def delete_image(server: ServerDep, now: Now, image_id: RowId) -> Deleted:
 def read_original(server: ServerDep, session: Reader, image_id: RowId, if_none_match: IfNoneMatch = None) -> Response:
     """Return the file as it was uploaded."""
     image = images.get_image(session, image_id)
-    if is_held(if_none_match, image.sha256):
-        return not_modified(image.sha256)
-    if not server.blobs.exists(image.sha256):  # else the answer would break off after it has begun
-        raise NotFound("the image's file is gone from the data folder", where=image.file_name)
-    return FileResponse(
-        server.blobs.path(image.sha256),
-        filename=image.file_name.rpartition("/")[2],
-        media_type="application/octet-stream",
-        headers=fresh_headers(image.sha256),
-    )
-
-
-PIXELS = {200: {"content": {"image/*": {"schema": {"type": "string", "format": "binary"}}}}}
+    return original_answer(server, image.sha256, image.file_name, if_none_match)
 
 
 @router.get("/images/{image_id}/display", response_class=Response, responses={**PIXELS})
 def read_display(server: ServerDep, session: Reader, image_id: RowId, if_none_match: IfNoneMatch = None) -> Response:
     """Return the image in a form that a browser shows, pixels as stored: no EXIF rotation, 16 bit brought to 8."""
-    image = images.get_image(session, image_id)
-    tag = f"{image.sha256}-display"
-    if is_held(if_none_match, tag):
-        return not_modified(tag)
-    content, media_type = for_browser(server.blobs.read(image.sha256), max_pixels=server.settings.max_image_pixels)
-    return Response(content, media_type=media_type, headers=fresh_headers(tag))
+    return display_answer(server, images.get_image(session, image_id).sha256, if_none_match)
 
 
 @router.get("/images/{image_id}/thumbnail", response_class=Response, responses={**PIXELS})
@@ -178,13 +150,7 @@ def read_thumbnail(
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Return a small picture whose longer side is ``size`` px."""
-    image = images.get_image(session, image_id)
-    tag = f"{image.sha256}-{size.value}"
-    if is_held(if_none_match, tag):
-        return not_modified(tag)
-    data = server.blobs.read(image.sha256)
-    content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
-    return Response(content, media_type=media_type, headers=fresh_headers(tag))
+    return thumbnail_answer(server, images.get_image(session, image_id).sha256, size, if_none_match)
 
 
 def _changes(given: ImagesChange | ImageChange) -> image_changes.ImageChanges:

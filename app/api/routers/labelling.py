@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from app.api.deps import Now, Reader, ServerDep
+from app.api.deps import Now, Reader, ServerDep, ViewerDep
 from app.api.problems import answers
 from app.api.schemas.base import RowId
 from app.api.schemas.labelling import (
@@ -48,15 +48,15 @@ def read_decisions(session: Reader, image_id: RowId) -> History:
 
 
 @router.post("/decisions", responses=answers(409))
-def decide(server: ServerDep, now: Now, image_id: RowId, given: DecisionsGiven) -> DecisionsStored:
+def decide(server: ServerDep, viewer: ViewerDep, now: Now, image_id: RowId, given: DecisionsGiven) -> DecisionsStored:
     """Store verdicts; all of them or none. A decision whose ``client_id`` is known already changes nothing."""
     with server.database.write() as session:
-        stored = labelling.decide(session, image_id, given.decisions, person=server.settings.person, now=now)
+        stored = labelling.decide(session, image_id, given.decisions, person=viewer.name, now=now)
         return DecisionsStored.model_validate(stored)
 
 
 @router.put("/review", responses=answers(409))
-def set_review(server: ServerDep, now: Now, image_id: RowId, given: ReviewGiven) -> ReviewAnswer:
+def set_review(server: ServerDep, viewer: ViewerDep, now: Now, image_id: RowId, given: ReviewGiven) -> ReviewAnswer:
     """Say how far the people are with an image. ``done`` is refused while candidates are undecided."""
     with server.database.write() as session:
         review = reviews.set_review(
@@ -65,7 +65,7 @@ def set_review(server: ServerDep, now: Now, image_id: RowId, given: ReviewGiven)
             given.status,
             reason=given.reason,
             allow_undecided=given.allow_undecided,
-            person=server.settings.person,
+            person=viewer.name,
             now=now,
         )
         return ReviewAnswer.model_validate(review)

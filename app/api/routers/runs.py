@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, status
 from sqlalchemy.orm import Session
 
-from app.api.deps import Cursor, Limit, Now, Reader, Server, ServerDep
+from app.api.deps import Cursor, Limit, Now, Reader, Server, ServerDep, ViewerDep
 from app.api.problems import answers
 from app.api.schemas.base import RowId, WorkState
 from app.api.schemas.datasets import Deleted
@@ -17,12 +17,12 @@ router = APIRouter(tags=["runs"], responses=answers(404))
 
 
 @router.post("/datasets/{slug}/runs", status_code=status.HTTP_202_ACCEPTED, responses=answers(409))
-def start_run(server: ServerDep, now: Now, slug: str, given: RunGiven) -> RunAnswer:
+def start_run(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, given: RunGiven) -> RunAnswer:
     """Queue the pipeline for all images of a dataset, or for some; it begins at once."""
     parameters = given.model_dump(exclude={"image_ids"}, exclude_none=True)
     with server.database.write() as session:
         dataset = get_dataset(session, slug)
-        run = runs.start_run(session, dataset, parameters, given.image_ids, now, person=server.settings.person)
+        run = runs.start_run(session, dataset, parameters, given.image_ids, now, person=viewer.name)
         answer = _answer(server, session, run.id, now)
     server.dispatcher.wake()
     return answer
@@ -52,36 +52,36 @@ def list_run_images(
 
 
 @router.post("/runs/{run_id}/retry")
-def retry_run(server: ServerDep, now: Now, run_id: RowId) -> Retried:
+def retry_run(server: ServerDep, viewer: ViewerDep, now: Now, run_id: RowId) -> Retried:
     """Queue the images that failed once more."""
     with server.database.write() as session:
-        queued = runs.retry_run(session, run_id, now, person=server.settings.person)
+        queued = runs.retry_run(session, run_id, now, person=viewer.name)
     server.dispatcher.wake()
     return Retried(queued=queued)
 
 
 @router.post("/runs/{run_id}/cancel", responses=answers(409))
-def cancel_run(server: ServerDep, now: Now, run_id: RowId) -> RunAnswer:
+def cancel_run(server: ServerDep, viewer: ViewerDep, now: Now, run_id: RowId) -> RunAnswer:
     """Stop a run; what it has finished stays."""
     with server.database.write() as session:
-        runs.cancel_run(session, run_id, now, person=server.settings.person)
+        runs.cancel_run(session, run_id, now, person=viewer.name)
         return _answer(server, session, run_id, now)
 
 
 @router.delete("/runs/{run_id}")
-def delete_run(server: ServerDep, now: Now, run_id: RowId) -> Deleted:
+def delete_run(server: ServerDep, viewer: ViewerDep, now: Now, run_id: RowId) -> Deleted:
     """Delete a run with its undecided candidates; what a person decided stays. It can be restored for a while."""
     settings = server.settings
     with server.database.write() as session:
-        deleted = runs.delete_run(session, run_id, now, grace=settings.grace, person=settings.person)
+        deleted = runs.delete_run(session, run_id, now, grace=settings.grace, person=viewer.name)
         return Deleted.model_validate(deleted)
 
 
 @router.post("/runs/{run_id}/restore", responses=answers(409))
-def restore_run(server: ServerDep, now: Now, run_id: RowId) -> RunAnswer:
+def restore_run(server: ServerDep, viewer: ViewerDep, now: Now, run_id: RowId) -> RunAnswer:
     """Bring a deleted run back."""
     with server.database.write() as session:
-        runs.restore_run(session, run_id, now, person=server.settings.person)
+        runs.restore_run(session, run_id, now, person=viewer.name)
         return _answer(server, session, run_id, now)
 
 

@@ -7,7 +7,7 @@ from typing import get_args
 from fastapi import APIRouter
 
 from app import __version__
-from app.api.deps import Reader, ServerDep
+from app.api.deps import Reader, ServerDep, ViewerDep
 from app.api.schemas.system import Configuration, Health, Limits
 from app.formats.exports import EXPORTS
 from app.services.installation import instance_of
@@ -23,7 +23,7 @@ def health() -> Health:
 
 
 @router.get("/configuration")
-def configuration(server: ServerDep, session: Reader) -> Configuration:
+def configuration(server: ServerDep, viewer: ViewerDep, session: Reader) -> Configuration:
     """Return what a client must know before it shows anything."""
     settings = server.settings
     return Configuration(
@@ -34,6 +34,6 @@ def configuration(server: ServerDep, session: Reader) -> Configuration:
         run_defaults={**DetectionParameters().as_dict(), "camera": "joint", "discard": False},
         operating_points=list(get_args(OperatingPoint)),
         export_formats=list(EXPORTS),
-        local=True,
-        person=settings.person,
+        local=settings.anonymous_role == "owner",
+        person=viewer.name,
     )

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, File, UploadFile, status
 
-from app.api.deps import Now, ServerDep
+from app.api.deps import Now, ServerDep, ViewerDep
 from app.api.problems import answers
 from app.api.schemas.images import UploadReport
 from app.services.datasets import get_dataset
@@ -20,6 +20,7 @@ router = APIRouter(tags=["images"], responses=answers(404, 413))
 @router.post("/datasets/{slug}/images", status_code=status.HTTP_201_CREATED)
 def upload_images(
     server: ServerDep,
+    viewer: ViewerDep,
     now: Now,
     slug: str,
     files: Annotated[list[UploadFile], File(description="Images, label files, or zips; names may be paths.")],
@@ -33,6 +34,6 @@ def upload_images(
     settings = server.settings
     with server.database.read() as session:
         dataset = get_dataset(session, slug)
-    importer = Importer(server.database, server.blobs, dataset.id, now, import_limits(settings), settings.person)
+    importer = Importer(server.database, server.blobs, dataset.id, now, import_limits(settings), viewer.name)
     given = [UploadedFile(file.filename or "", file.file) for file in files]
     return UploadReport.model_validate(import_upload(importer, given))

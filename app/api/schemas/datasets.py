@@ -12,13 +12,28 @@ from app.api.schemas.runs import RunBrief
 
 DatasetName = Annotated[str, StringConstraints(min_length=1, max_length=200, strip_whitespace=True)]
 
+CardText = Annotated[str, StringConstraints(max_length=20_000)]
+
 
 class DatasetGiven(Given):
-    """A dataset to be made or renamed."""
+    """A dataset to be made."""
 
     model_config = ConfigDict(json_schema_extra={"example": {"name": "Downtown, spring"}})
 
     name: DatasetName = Field(description="Shown everywhere; the slug of its address is made from it.")
+
+
+class DatasetChange(Given):
+    """What to change of a dataset; a field that is left out stays, ``null`` clears one."""
+
+    model_config = ConfigDict(
+        json_schema_extra={"example": {"description": "Two drives through the city", "licence": "CC BY 4.0"}}
+    )
+
+    name: DatasetName | None = None
+    description: CardText | None = None
+    licence: CardText | None = Field(default=None, description="Under which the images and labels are.")
+    citation: CardText | None = Field(default=None, description="How to cite it; plain text or BibTeX.")
 
 
 class DatasetAnswer(Answer):

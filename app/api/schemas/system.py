@@ -35,5 +35,5 @@ class Configuration(Answer):
     run_defaults: dict[str, Any]
     operating_points: list[str]
     export_formats: list[str]
-    local: bool
-    person: str
+    local: bool = Field(description="Whether who asks without a token is the owner.")
+    person: str | None = Field(description="Under which name is stored what the viewer does.")

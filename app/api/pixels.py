@@ -1,0 +1,60 @@
+"""Answers that are pictures: the file as it was uploaded, a form that browsers show, a thumbnail."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from fastapi import Response
+from fastapi.responses import FileResponse
+
+from app.api.deps import Server
+from app.api.freshness import fresh_headers, is_held, not_modified
+from app.errors import NotFound
+from app.images import for_browser, thumbnail
+
+PIXELS = {200: {"content": {"image/*": {"schema": {"type": "string", "format": "binary"}}}}}
+
+
+class ThumbnailSize(IntEnum):
+    """Longer side of a thumbnail, px."""
+
+    SMALL = 160
+    MEDIUM = 320
+    LARGE = 640
+
+
+def original_answer(server: Server, sha256: str, file_name: str, if_none_match: str | None) -> Response:
+    """Return the file as it was uploaded.
+
+    Raises:
+        NotFound: When it is gone from the data folder.
+    """
+    if is_held(if_none_match, sha256):
+        return not_modified(sha256)
+    if not server.blobs.exists(sha256):  # else the answer would break off after it has begun
+        raise NotFound("the image's file is gone from the data folder", where=file_name)
+    return FileResponse(
+        server.blobs.path(sha256),
+        filename=file_name.rpartition("/")[2],
+        media_type="application/octet-stream",
+        headers=fresh_headers(sha256),
+    )
+
+
+def display_answer(server: Server, sha256: str, if_none_match: str | None) -> Response:
+    """Return the image in a form that a browser shows, pixels as stored."""
+    tag = f"{sha256}-display"
+    if is_held(if_none_match, tag):
+        return not_modified(tag)
+    content, media_type = for_browser(server.blobs.read(sha256), max_pixels=server.settings.max_image_pixels)
+    return Response(content, media_type=media_type, headers=fresh_headers(tag))
+
+
+def thumbnail_answer(server: Server, sha256: str, size: ThumbnailSize, if_none_match: str | None) -> Response:
+    """Return a small picture whose longer side is ``size`` px."""
+    tag = f"{sha256}-{size.value}"
+    if is_held(if_none_match, tag):
+        return not_modified(tag)
+    data = server.blobs.read(sha256)
+    content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
+    return Response(content, media_type=media_type, headers=fresh_headers(tag))

@@ -1,0 +1,120 @@
+"""Candidates, what people decided about them, and the audit of everything else that was done."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
+
+from sqlalchemy import Float, ForeignKey, Index, Integer, LargeBinary, String, Text
+from sqlalchemy.orm import Mapped, mapped_column, relationship
+
+from app.db.models.base import NEVER_REUSED, Base, one_of
+
+if TYPE_CHECKING:
+    from app.db.models.datasets import Image
+
+VERDICTS = ("keep", "reject", "ambiguous", "undecided")
+REVIEW_STATES = ("open", "done", "discarded")
+ORIGINS = ("pipeline", "manual", "import")
+DECISION_KINDS = ("judge", "undo", "redo", "carry", "import")
+
+
+class Segment(Base):
+    """A candidate, or a segment from an import or a hand.
+
+    ``points`` is the float32 little-endian ``(n_points, 2)`` array: the same bytes in memory, column, wire and browser.
+    """
+
+    __tablename__ = "segments"
+    __table_args__ = (
+        one_of("origin", ORIGINS),
+        Index("ix_segments_image_retired", "image_id", "retired_at"),
+        NEVER_REUSED,
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    image_id: Mapped[int] = mapped_column(ForeignKey("images.id", ondelete="CASCADE"))
+    run_image_id: Mapped[int | None] = mapped_column(ForeignKey("run_images.id", ondelete="SET NULL"), index=True)
+    ordinal: Mapped[int]
+    n_points: Mapped[int]
+    points: Mapped[bytes] = mapped_column(LargeBinary, deferred=True)
+    x0: Mapped[float] = mapped_column(Float)
+    y0: Mapped[float] = mapped_column(Float)
+    x1: Mapped[float] = mapped_column(Float)
+    y1: Mapped[float] = mapped_column(Float)
+    length: Mapped[float] = mapped_column(Float)
+    residual: Mapped[float | None] = mapped_column(Float)
+    score: Mapped[float | None] = mapped_column(Float)
+    straightness: Mapped[float | None] = mapped_column(Float)
+    origin: Mapped[str] = mapped_column(String(20))
+    retired_at: Mapped[datetime | None]  # set when a later run replaced it
+    # the later run's candidate that it matched: a verdict that comes late for this one goes there
+    replaced_by_id: Mapped[int | None] = mapped_column(ForeignKey("segments.id", ondelete="SET NULL"), index=True)
+
+    state: Mapped[SegmentState | None] = relationship(back_populates="segment", cascade="all, delete-orphan")
+
+
+class Decision(Base):
+    """One judgement of one segment; append-only. ``group_id`` joins what one key press did."""
+
+    __tablename__ = "decisions"
+    __table_args__ = (
+        one_of("verdict", VERDICTS),
+        one_of("kind", DECISION_KINDS),
+        Index("ix_decisions_image_id_id", "image_id", "id"),
+        NEVER_REUSED,
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    image_id: Mapped[int] = mapped_column(ForeignKey("images.id", ondelete="CASCADE"))
+    segment_id: Mapped[int] = mapped_column(ForeignKey("segments.id", ondelete="CASCADE"), index=True)
+    person: Mapped[str | None] = mapped_column(String(200))
+    verdict: Mapped[str] = mapped_column(String(20))
+    previous: Mapped[str] = mapped_column(String(20))
+    kind: Mapped[str] = mapped_column(String(20))
+    client_id: Mapped[str] = mapped_column(String(36), unique=True)
+    group_id: Mapped[str] = mapped_column(String(36))
+    target_group_id: Mapped[str | None] = mapped_column(String(36))  # the group that an undo or redo is about
+    elapsed_ms: Mapped[int | None] = mapped_column(Integer)
+    created_at: Mapped[datetime]
+
+
+class SegmentState(Base):
+    """The current verdict of a segment, written in the transaction of its decision."""
+
+    __tablename__ = "segment_states"
+    __table_args__ = (one_of("verdict", VERDICTS),)
+
+    segment_id: Mapped[int] = mapped_column(ForeignKey("segments.id", ondelete="CASCADE"), primary_key=True)
+    verdict: Mapped[str] = mapped_column(String(20))
+    decision_id: Mapped[int] = mapped_column(ForeignKey("decisions.id", ondelete="CASCADE"), index=True)
+
+    segment: Mapped[Segment] = relationship(back_populates="state")
+
+
+class Review(Base):
+    """How far the people are with an image."""
+
+    __tablename__ = "reviews"
+    __table_args__ = (one_of("status", REVIEW_STATES),)
+
+    image_id: Mapped[int] = mapped_column(ForeignKey("images.id", ondelete="CASCADE"), primary_key=True)
+    status: Mapped[str] = mapped_column(String(20), default="open", index=True)
+    reason: Mapped[str | None] = mapped_column(Text)
+    person: Mapped[str | None] = mapped_column(String(200))
+    updated_at: Mapped[datetime]
+
+    image: Mapped[Image] = relationship(back_populates="review")
+
+
+class Event(Base):
+    """Append-only audit of what was imported, renamed, deleted, restored, started..."""
+
+    __tablename__ = "events"
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    dataset_id: Mapped[int | None] = mapped_column(ForeignKey("datasets.id", ondelete="SET NULL"), index=True)
+    kind: Mapped[str] = mapped_column(String(60))
+    person: Mapped[str | None] = mapped_column(String(200))
+    details: Mapped[dict[str, Any]]
+    created_at: Mapped[datetime]

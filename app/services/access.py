@@ -1,0 +1,75 @@
+"""Who may do what: the one place where that is decided.
+
+Roles form a ladder; each may do what those below it may:
+
+=========== ==========================================================================================
+reader      look at what is public
+submitter   hand in submissions, and look after their own
+annotator   decide on candidates of images that no hidden split uses
+maintainer  everything about datasets, runs and splits, and see what hidden splits conceal
+owner       the person at the machine: in local mode whoever asks, without a token
+=========== ==========================================================================================
+
+What hidden splits conceal from everyone below maintainer is told in ``app.services.concealing``; which role each
+address of the API needs, in ``app.api.policy``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+Role = Literal["reader", "submitter", "annotator", "maintainer", "owner"]
+ROLES: tuple[Role, ...] = get_args(Role)
+"""From the least to the most."""
+
+
+@dataclass(frozen=True)
+class Viewer:
+    """Who asks.
+
+    Attributes:
+        name: The token's name, the owner's own in local mode, ``None`` for an anonymous reader. What this viewer does
+            is stored under it.
+        role: What it may do.
+        anonymous: Whether it asks without a token.
+    """
+
+    name: str | None
+    role: Role
+    anonymous: bool = False
+
+
+def is_at_least(viewer: Viewer, role: Role) -> bool:
+    """Whether the viewer may do what the role may."""
+    return ROLES.index(viewer.role) >= ROLES.index(role)
+
+
+def can_submit(viewer: Viewer) -> bool:
+    """Whether the viewer may hand in submissions."""
+    return is_at_least(viewer, "submitter")
+
+
+def can_label(viewer: Viewer) -> bool:
+    """Whether the viewer may decide on candidates."""
+    return is_at_least(viewer, "annotator")
+
+
+def can_maintain(viewer: Viewer) -> bool:
+    """Whether the viewer may change datasets, runs and splits."""
+    return is_at_least(viewer, "maintainer")
+
+
+def can_see_hidden(viewer: Viewer) -> bool:
+    """Whether the viewer may see what a hidden split conceals: its labels, and what they could be learnt from."""
+    return is_at_least(viewer, "maintainer")
+
+
+def can_see_details(viewer: Viewer, visibility: str) -> bool:
+    """Whether the viewer may see more than rounded totals of scores on a split of that visibility."""
+    return visibility == "open" or can_see_hidden(viewer)
+
+
+def owns(viewer: Viewer, person: str | None) -> bool:
+    """Whether what is stored under that name is the viewer's own; what nobody's name is on belongs to nobody."""
+    return person is not None and viewer.name == person
