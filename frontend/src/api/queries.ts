@@ -1,6 +1,7 @@
 /** Query keys in one place, so that a change can tell exactly which answers are out of date. */
 
-import { QueryClient, queryOptions } from "@tanstack/react-query";
+import { QueryCache, QueryClient, queryOptions } from "@tanstack/react-query";
+import { boardKeys } from "./board_queries";
 import * as api from "./endpoints";
 import { RequestFailed } from "./problem";
 
@@ -35,14 +36,29 @@ export const stagesQuery = (imageId: number, segmentId: number) =>
     staleTime: Number.POSITIVE_INFINITY,
   });
 
+/** Whether the token that went along is no longer good; the server has the browser forget it. */
+function isSignedOut(error: unknown): boolean {
+  return error instanceof RequestFailed && error.problem.status === 401;
+}
+
 export function makeQueryClient(): QueryClient {
-  return new QueryClient({
+  const client: QueryClient = new QueryClient({
+    queryCache: new QueryCache({
+      onError: (error, query) => {
+        if (isSignedOut(error) && query.queryKey[0] !== boardKeys.me[0]) {
+          void client.invalidateQueries({ queryKey: boardKeys.me });
+        }
+      },
+    }),
     defaultOptions: {
       queries: {
         staleTime: 2_000,
-        retry: (failures, error) => error instanceof RequestFailed && error.temporary && failures < 2,
+        retry: (failures, error) =>
+          (error instanceof RequestFailed && error.temporary && failures < 2) ||
+          (isSignedOut(error) && failures < 1),
       },
       mutations: { retry: false },
     },
   });
+  return client;
 }

@@ -90,10 +90,10 @@ export interface paths {
         options?: never;
         head?: never;
         /**
-         * Rename Dataset
-         * @description Give a dataset another name; its address stays.
+         * Change Dataset
+         * @description Give a dataset another name, which leaves its address as it is, or change what its card says.
          */
-        patch: operations["rename_dataset_api_datasets__slug__patch"];
+        patch: operations["change_dataset_api_datasets__slug__patch"];
         trace?: never;
     };
     "/api/datasets/{slug}/cameras": {
@@ -108,6 +108,46 @@ export interface paths {
          * @description List the cameras of a dataset.
          */
         get: operations["list_cameras_api_datasets__slug__cameras_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/card": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Card
+         * @description Return a dataset's card; the scores of its candidates take a while the first time after labels have changed.
+         */
+        get: operations["read_card_api_datasets__slug__card_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/card.png": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Card Figure
+         * @description Return the card's figure: an image, its candidates, and what was kept of them.
+         */
+        get: operations["read_card_figure_api_datasets__slug__card_png_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -269,6 +309,28 @@ export interface paths {
          * @description Queue the pipeline for all images of a dataset, or for some; it begins at once.
          */
         post: operations["start_run_api_datasets__slug__runs_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/splits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Create Split
+         * @description Freeze a dataset's labels: kept segments are to be found, ambiguous ones and short ones are ignored.
+         *
+         *     409 with a reason for each image whose review isn't done (`details.reasons`).
+         */
+        post: operations["create_split_api_datasets__slug__splits_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -470,6 +532,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/me": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Me
+         * @description Return who asks, and what they may do.
+         */
+        get: operations["read_me_api_me_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/methods/{method}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Method
+         * @description Return a method with all of its submissions that one may see, newest first.
+         */
+        get: operations["read_method_api_methods__method__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Change Method
+         * @description Change what is said of a method; `anonymous: false` reveals whose it is, for good.
+         */
+        patch: operations["change_method_api_methods__method__patch"];
+        trace?: never;
+    };
     "/api/runs/{run_id}": {
         parameters: {
             query?: never;
@@ -597,15 +703,731 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/session": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Sign In
+         * @description Keep a token in a cookie, for browsers; programs send `Authorization: Bearer cl_...` with each request.
+         */
+        post: operations["sign_in_api_session_post"];
+        /**
+         * Sign Out
+         * @description Drop the cookie; the token itself stays good until it expires or is revoked.
+         */
+        delete: operations["sign_out_api_session_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Splits
+         * @description List the splits, newest first; with ``dataset`` those of one, with ``deleted`` those that can be restored.
+         */
+        get: operations["list_splits_api_splits_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Split
+         * @description Return one split; maintainers see whether its labels changed since they were frozen.
+         */
+        get: operations["read_split_api_splits__split__get"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Split
+         * @description Delete a split with its board; it can be restored.
+         */
+        delete: operations["delete_split_api_splits__split__delete"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Split
+         * @description Change name, description, deadline or daily limit; truth and visibility stay.
+         */
+        patch: operations["change_split_api_splits__split__patch"];
+        trace?: never;
+    };
+    "/api/splits/{split}/board": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Board
+         * @description Return the board of a split: the best submission of each method, with intervals of numbers and ranks.
+         */
+        get: operations["read_board_api_splits__split__board_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/board.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Board Csv
+         * @description Return the board as CSV.
+         */
+        get: operations["read_board_csv_api_splits__split__board_csv_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/images": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Split Images
+         * @description List the images of a split with the addresses of their pixels, page by page, for detectors to run on.
+         */
+        get: operations["list_split_images_api_splits__split__images_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/images/{split_image_id}/display": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Split Display
+         * @description Return an image in a form that a browser shows, pixels as stored.
+         */
+        get: operations["read_split_display_api_splits__split__images__split_image_id__display_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/images/{split_image_id}/original": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Split Original
+         * @description Return an image's file as it was uploaded.
+         */
+        get: operations["read_split_original_api_splits__split__images__split_image_id__original_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/images/{split_image_id}/thumbnail": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Split Thumbnail
+         * @description Return a small picture whose longer side is ``size`` px.
+         */
+        get: operations["read_split_thumbnail_api_splits__split__images__split_image_id__thumbnail_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Split
+         * @description Bring a deleted split back.
+         */
+        post: operations["restore_split_api_splits__split__restore_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/submissions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Submissions
+         * @description List a split's submissions, newest first: public ones that are scored, and all of one's own.
+         */
+        get: operations["list_submissions_api_splits__split__submissions_get"];
+        put?: never;
+        /**
+         * Hand In
+         * @description Hand in results. The answer comes when they are validated; scoring goes on behind it.
+         *
+         *     422 with everything that is wrong, as `validate` says it, and nothing is left behind.
+         */
+        post: operations["hand_in_api_splits__split__submissions_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/submissions/validate": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Validate Submission
+         * @description Check files without handing them in; nothing is stored, and it counts for no limit.
+         *
+         *     422 with everything that is wrong: `details.errors` has `file`, `segment`, `point`, `message`, `expected`, `hint`.
+         */
+        post: operations["validate_submission_api_splits__split__submissions_validate_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/truth": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Truth File
+         * @description Return the frozen labels in one file for all images, with verdicts ``keep`` and ``ambiguous``.
+         *
+         *     404 on hidden splits below maintainer.
+         */
+        get: operations["read_truth_file_api_splits__split__truth_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Freeze Again
+         * @description Freeze the labels as they are now: a new version. Old versions and their scores stay.
+         */
+        post: operations["freeze_again_api_splits__split__versions_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Submission
+         * @description Return a submission: its state, its place in the queue or its progress, its numbers.
+         */
+        get: operations["read_submission_api_submissions__submission_id__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Change Submission
+         * @description Change who sees a submission, or its label.
+         */
+        patch: operations["change_submission_api_submissions__submission_id__patch"];
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/compare/{other}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare
+         * @description Compare two submissions on the same images: differences are `other` minus this one, paired.
+         */
+        get: operations["compare_api_submissions__submission_id__compare__other__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Watch Submission
+         * @description Send the submission as an event of the kind `submission` whenever it changes, until it is in a final state.
+         */
+        get: operations["watch_submission_api_submissions__submission_id__events_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read File
+         * @description Return the segments of a submission in one file for all images, or the upload itself to its author.
+         */
+        get: operations["read_file_api_submissions__submission_id__file_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/images": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Images
+         * @description List the images of a submission with their numbers, sorted by any of them; undefined ones come last.
+         */
+        get: operations["list_images_api_submissions__submission_id__images_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/images/{split_image_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Image
+         * @description Return one image segment by segment, with the images before and after it in the given order.
+         */
+        get: operations["read_image_api_submissions__submission_id__images__split_image_id__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/images/{split_image_id}/overlay.png": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Overlay
+         * @description Return the image with hits (green), false alarms (red, dashed) and misses (orange, dotted), and a legend.
+         */
+        get: operations["read_overlay_api_submissions__submission_id__images__split_image_id__overlay_png_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/images/{split_image_id}/points": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Points
+         * @description Return the points of labels and predictions in one binary answer, in the form of an image's candidates.
+         *
+         *     The L labels have the ids 0 to L - 1, the P predictions L to L + P - 1.
+         */
+        get: operations["read_points_api_submissions__submission_id__images__split_image_id__points_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/images/{split_image_id}/review": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Send False Positives
+         * @description Put false positives into the image's candidates, undecided: perhaps the label is what is missing.
+         */
+        post: operations["send_false_positives_api_submissions__submission_id__images__split_image_id__review_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/matches": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Matches
+         * @description Return what became of every segment of every image.
+         */
+        get: operations["read_matches_api_submissions__submission_id__matches_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/rescore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Rescore
+         * @description Score a submission anew, under the current version of the protocol or another version of the split.
+         *
+         *     Old numbers stay. A failed one is tried again.
+         */
+        post: operations["rescore_api_submissions__submission_id__rescore_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore
+         * @description Bring a withdrawn submission back.
+         */
+        post: operations["restore_api_submissions__submission_id__restore_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/submissions/{submission_id}/withdraw": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Withdraw
+         * @description Take a submission off the board; `restore` brings it back.
+         */
+        post: operations["withdraw_api_submissions__submission_id__withdraw_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Abilities
+         * @description What the viewer may do.
+         */
+        Abilities: {
+            /**
+             * Label
+             * @description Decide on candidates.
+             */
+            label: boolean;
+            /**
+             * Maintain
+             * @description Change datasets, runs and splits.
+             */
+            maintain: boolean;
+            /**
+             * See Hidden
+             * @description See what hidden splits conceal.
+             */
+            see_hidden: boolean;
+            /**
+             * Submit
+             * @description Hand in submissions.
+             */
+            submit: boolean;
+        };
+        /**
+         * BoardAnswer
+         * @description The board of a split version.
+         */
+        BoardAnswer: {
+            /** Draws */
+            draws: number;
+            /** Level */
+            level: number;
+            /** Protocol */
+            protocol: string;
+            /** Protocol Version */
+            protocol_version: string;
+            /** Rows */
+            rows: components["schemas"]["BoardRow"][];
+            split: components["schemas"]["SplitName"];
+            /** Version */
+            version: number;
+        };
+        /**
+         * BoardMethod
+         * @description A method as the board names it.
+         */
+        BoardMethod: {
+            /** Code Url */
+            code_url: string | null;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "method" | "baseline" | "ceiling";
+            /** Name */
+            name: string;
+            /** Paper Url */
+            paper_url: string | null;
+            /** Slug */
+            slug: string;
+        };
+        /**
+         * BoardRow
+         * @description The best submission of a method. Its rank is an interval: from ``rank_low`` to ``rank_high``.
+         */
+        BoardRow: {
+            /** Label */
+            label: string | null;
+            method: components["schemas"]["BoardMethod"];
+            /** Person */
+            person: string | null;
+            /** Rank High */
+            rank_high: number | null;
+            /**
+             * Rank Low
+             * @description Absent on rows that aren't ranked: ceilings.
+             */
+            rank_low: number | null;
+            /** Scored At */
+            scored_at: string | null;
+            /** Submission Id */
+            submission_id: number | null;
+            /**
+             * Tied With
+             * @description Slugs of the methods that the images can't tell from this one.
+             */
+            tied_with: string[];
+            /** Totals */
+            totals: {
+                [key: string]: components["schemas"]["Estimate"];
+            };
+            /**
+             * Warning
+             * @description What to know of the official-v1 columns.
+             */
+            warning: string | null;
+        };
+        /** Body_hand_in_api_splits__split__submissions_post */
+        Body_hand_in_api_splits__split__submissions_post: {
+            /**
+             * Anonymous
+             * @description Don't show whose a new method is until it is revealed.
+             * @default false
+             */
+            anonymous: boolean;
+            /** Code Url */
+            code_url?: string | null;
+            /** Description */
+            description?: string | null;
+            /**
+             * Files
+             * @description One .zip or .tar.gz of a file per image, one .npz or .json for all, or a file per image.
+             */
+            files: string[];
+            /**
+             * Label
+             * @description Your word for this version of it.
+             */
+            label?: string | null;
+            /**
+             * Method
+             * @description Name of the method; made if new.
+             */
+            method: string;
+            /** Paper Url */
+            paper_url?: string | null;
+            /**
+             * Visibility
+             * @default public
+             * @enum {string}
+             */
+            visibility: "public" | "private";
+            /** Webhook Url */
+            webhook_url?: string | null;
+        };
         /** Body_upload_images_api_datasets__slug__images_post */
         Body_upload_images_api_datasets__slug__images_post: {
             /**
              * Files
              * @description Images, label files, or zips; names may be paths.
+             */
+            files: string[];
+        };
+        /** Body_validate_submission_api_splits__split__submissions_validate_post */
+        Body_validate_submission_api_splits__split__submissions_validate_post: {
+            /**
+             * Files
+             * @description One .zip or .tar.gz of a file per image, one .npz or .json for all, or a file per image.
              */
             files: string[];
         };
@@ -708,6 +1530,129 @@ export interface components {
             name: string;
         };
         /**
+         * Card
+         * @description What a dataset holds, how well the pipeline did on it, and how to cite it.
+         * @example {
+         *       "description": "Two drives through the city",
+         *       "figure": "/api/datasets/downtown-spring/card.png",
+         *       "images": 85,
+         *       "labelled": 85,
+         *       "labels": 2210,
+         *       "licence": "CC BY 4.0",
+         *       "name": "Downtown, spring",
+         *       "slug": "downtown-spring",
+         *       "sources": [
+         *         {
+         *           "cameras": 2,
+         *           "images": 85,
+         *           "labelled": 85,
+         *           "sequences": 4,
+         *           "sizes": [
+         *             "1242 x 375",
+         *             "1224 x 370"
+         *           ],
+         *           "source": "KITTI"
+         *         }
+         *       ],
+         *       "table_one": [
+         *         {
+         *           "f1": 0.58,
+         *           "f1_v2": 0.55,
+         *           "images": 85,
+         *           "precision": 0.43,
+         *           "recall": 0.91,
+         *           "source": "KITTI"
+         *         }
+         *       ],
+         *       "verdicts": {
+         *         "ambiguous": 31,
+         *         "keep": 2210,
+         *         "reject": 9034,
+         *         "undecided": 0
+         *       }
+         *     }
+         */
+        Card: {
+            /** Citation */
+            citation: string | null;
+            /** Description */
+            description: string | null;
+            /**
+             * Figure
+             * @description Address of the picture: image, candidates, kept; null without labels.
+             */
+            figure: string | null;
+            /** Images */
+            images: number;
+            /**
+             * Labelled
+             * @description Images whose review is done.
+             */
+            labelled: number;
+            /**
+             * Labels
+             * @description Kept segments.
+             */
+            labels: number;
+            /** Licence */
+            licence: string | null;
+            /** Name */
+            name: string;
+            /** Slug */
+            slug: string;
+            /** Sources */
+            sources: components["schemas"]["CardSource"][];
+            /**
+             * Table One
+             * @description Empty while no image is done.
+             */
+            table_one: components["schemas"]["TableOneRow"][];
+            verdicts: components["schemas"]["VerdictCounts"];
+        };
+        /**
+         * CardSource
+         * @description Images of one origin.
+         */
+        CardSource: {
+            /** Cameras */
+            cameras: number;
+            /** Images */
+            images: number;
+            /**
+             * Labelled
+             * @description Images whose review is done.
+             */
+            labelled: number;
+            /** Sequences */
+            sequences: number;
+            /**
+             * Sizes
+             * @description Widths and heights that occur, the most frequent first: `1242 x 375`.
+             */
+            sizes: string[];
+            /** Source */
+            source: string | null;
+        };
+        /**
+         * ComparisonAnswer
+         * @description Two submissions on the same images.
+         */
+        ComparisonAnswer: {
+            /** A */
+            a: number;
+            /** B */
+            b: number;
+            /** Draws */
+            draws: number;
+            images: components["schemas"]["ImageVerdicts"];
+            /** Metrics */
+            metrics: {
+                [key: string]: components["schemas"]["MetricDifference"];
+            };
+            /** Protocol */
+            protocol: string;
+        };
+        /**
          * Configuration
          * @description What the browser tool must know before it shows anything.
          */
@@ -722,12 +1667,18 @@ export interface components {
              */
             instance: string;
             limits: components["schemas"]["Limits"];
-            /** Local */
+            /**
+             * Local
+             * @description Whether who asks without a token is the owner.
+             */
             local: boolean;
             /** Operating Points */
             operating_points: string[];
-            /** Person */
-            person: string;
+            /**
+             * Person
+             * @description Under which name is stored what the viewer does.
+             */
+            person: string | null;
             /** Run Defaults */
             run_defaults: {
                 [key: string]: unknown;
@@ -797,8 +1748,32 @@ export interface components {
             verdicts: components["schemas"]["VerdictCounts"];
         };
         /**
+         * DatasetChange
+         * @description What to change of a dataset; a field that is left out stays, ``null`` clears one.
+         * @example {
+         *       "description": "Two drives through the city",
+         *       "licence": "CC BY 4.0"
+         *     }
+         */
+        DatasetChange: {
+            /**
+             * Citation
+             * @description How to cite it; plain text or BibTeX.
+             */
+            citation?: string | null;
+            /** Description */
+            description?: string | null;
+            /**
+             * Licence
+             * @description Under which the images and labels are.
+             */
+            licence?: string | null;
+            /** Name */
+            name?: string | null;
+        };
+        /**
          * DatasetGiven
-         * @description A dataset to be made or renamed.
+         * @description A dataset to be made.
          * @example {
          *       "name": "Downtown, spring"
          *     }
@@ -968,6 +1943,18 @@ export interface components {
             where?: string | null;
         };
         /**
+         * Estimate
+         * @description A metric with its 95 % interval; ``null`` where it isn't defined.
+         */
+        Estimate: {
+            /** High */
+            high: number | null;
+            /** Low */
+            low: number | null;
+            /** Value */
+            value: number | null;
+        };
+        /**
          * ExistingImage
          * @description An uploaded file whose content is in the dataset already.
          */
@@ -976,6 +1963,18 @@ export interface components {
             image_id: number;
             /** Name */
             name: string;
+        };
+        /**
+         * F1Grid
+         * @description F1 over distances and thresholds, which ``mean_f1`` is the mean of.
+         */
+        F1Grid: {
+            /** F1 */
+            f1: (number | null)[][];
+            /** Taus */
+            taus: number[];
+            /** Thresholds */
+            thresholds: number[];
         };
         /**
          * Facet
@@ -1160,6 +2159,46 @@ export interface components {
             total: number;
         };
         /**
+         * ImageScoreAnswer
+         * @description The numbers of one image.
+         */
+        ImageScoreAnswer: {
+            /** Angle Error */
+            angle_error: number | null;
+            /** F1 */
+            f1: number | null;
+            /** Fn */
+            fn: number;
+            /** Fp */
+            fp: number;
+            /** Image Id */
+            image_id: number;
+            /** Name */
+            name: string;
+            /** Offset Mean */
+            offset_mean: number | null;
+            /** Precision */
+            precision: number | null;
+            /** Recall */
+            recall: number | null;
+            /** Thumbnail */
+            thumbnail: string;
+            /** Tp */
+            tp: number;
+        };
+        /**
+         * ImageScorePage
+         * @description A page of a submission's images.
+         */
+        ImageScorePage: {
+            /** Items */
+            items: components["schemas"]["ImageScoreAnswer"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Total */
+            total: number;
+        };
+        /**
          * ImageSummary
          * @description An image as lists show it.
          */
@@ -1204,6 +2243,18 @@ export interface components {
             verdicts: components["schemas"]["VerdictCounts"];
             /** Width */
             width: number;
+        };
+        /**
+         * ImageVerdicts
+         * @description On how many images the second submission is better than the first.
+         */
+        ImageVerdicts: {
+            /** Better */
+            better: number;
+            /** Equal */
+            equal: number;
+            /** Worse */
+            worse: number;
         };
         /**
          * ImagesChange
@@ -1271,6 +2322,51 @@ export interface components {
             ];
         };
         /**
+         * LabelOutcome
+         * @description What became of a label.
+         */
+        LabelOutcome: {
+            /** Error Type */
+            error_type: string | null;
+            /** Ignored */
+            ignored: boolean;
+            /** Index */
+            index: number;
+            /** Length */
+            length: number;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "hit" | "false_alarm" | "miss" | "ignored";
+        };
+        /**
+         * LabelsSince
+         * @description What became of the labels since the newest version was frozen.
+         */
+        LabelsSince: {
+            /**
+             * Changed
+             * @description Images whose labels differ now.
+             */
+            changed: string[];
+            /**
+             * Gone
+             * @description Images that the dataset has no longer.
+             */
+            gone: string[];
+        };
+        /**
+         * LeftOutFile
+         * @description A file of the upload that isn't read, and why.
+         */
+        LeftOutFile: {
+            /** File */
+            file: string;
+            /** Reason */
+            reason: string;
+        };
+        /**
          * Limits
          * @description Bounds on what is uploaded.
          */
@@ -1283,6 +2379,153 @@ export interface components {
             max_image_pixels: number;
             /** Max Upload Bytes */
             max_upload_bytes: number;
+        };
+        /**
+         * LogLine
+         * @description What happened to a submission.
+         */
+        LogLine: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Text */
+            text: string;
+        };
+        /**
+         * MatchesAnswer
+         * @description What became of every segment of every image.
+         */
+        MatchesAnswer: {
+            /** Images */
+            images: {
+                [key: string]: unknown;
+            }[];
+            /** Protocol */
+            protocol: string;
+            /** Protocol Version */
+            protocol_version: string;
+            /** Submission */
+            submission: number;
+            /** Submission Hash */
+            submission_hash: string;
+            /** Truth Hash */
+            truth_hash: string;
+        };
+        /**
+         * Me
+         * @description Who asks, and what they may do.
+         * @example {
+         *       "anonymous": false,
+         *       "can": {
+         *         "label": false,
+         *         "maintain": false,
+         *         "see_hidden": false,
+         *         "submit": true
+         *       },
+         *       "name": "ada",
+         *       "role": "submitter"
+         *     }
+         */
+        Me: {
+            /**
+             * Anonymous
+             * @description Whether they ask without a token.
+             */
+            anonymous: boolean;
+            can: components["schemas"]["Abilities"];
+            /**
+             * Name
+             * @description Under which what they do is stored; null for an anonymous reader.
+             */
+            name: string | null;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "reader" | "submitter" | "annotator" | "maintainer" | "owner";
+        };
+        /**
+         * MethodAnswer
+         * @description A detector, with what was submitted for it.
+         */
+        MethodAnswer: {
+            /** Anonymous */
+            anonymous: boolean;
+            /** Code Url */
+            code_url: string | null;
+            /** Description */
+            description: string | null;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "method" | "baseline" | "ceiling";
+            /** Mine */
+            mine: boolean;
+            /** Name */
+            name: string;
+            /** Paper Url */
+            paper_url: string | null;
+            /** Person */
+            person: string | null;
+            /** Slug */
+            slug: string;
+            /** Submissions */
+            submissions: components["schemas"]["SubmissionAnswer"][];
+        };
+        /**
+         * MethodChange
+         * @description What to change of a method; ``anonymous: false`` reveals whose it is, for good.
+         * @example {
+         *       "code_url": "https://example.org/code"
+         *     }
+         */
+        MethodChange: {
+            /** Anonymous */
+            anonymous?: boolean | null;
+            /** Code Url */
+            code_url?: string | null;
+            /** Description */
+            description?: string | null;
+            /** Name */
+            name?: string | null;
+            /** Paper Url */
+            paper_url?: string | null;
+        };
+        /**
+         * MethodName
+         * @description Which method.
+         */
+        MethodName: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "method" | "baseline" | "ceiling";
+            /** Name */
+            name: string;
+            /** Slug */
+            slug: string;
+        };
+        /**
+         * MetricDifference
+         * @description A metric of two submissions; ``difference`` is b - a, ``tied`` where its interval covers 0.
+         */
+        MetricDifference: {
+            /** A */
+            a: number | null;
+            /** B */
+            b: number | null;
+            /** Difference */
+            difference: number | null;
+            /** High */
+            high: number | null;
+            /** Low */
+            low: number | null;
+            /** Tied */
+            tied: boolean;
         };
         /**
          * Piece
@@ -1310,6 +2553,33 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /**
+         * PredictionOutcome
+         * @description What became of a prediction; offset (px) and angle (rad) are those of true positives.
+         */
+        PredictionOutcome: {
+            /** Angle */
+            angle: number | null;
+            /** Best Label */
+            best_label: number | null;
+            /** Error Type */
+            error_type: string | null;
+            /** Index */
+            index: number;
+            /** Length */
+            length: number;
+            /** Liou */
+            liou: number;
+            /** Offset */
+            offset: number | null;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "hit" | "false_alarm" | "miss" | "ignored";
+            /** Score */
+            score: number | null;
         };
         /**
          * Problem
@@ -1358,6 +2628,17 @@ export interface components {
             D: number[];
             /** K */
             K: number[][];
+        };
+        /**
+         * Rescore
+         * @description Which version of the split to score on; the newest when left out.
+         * @example {
+         *       "split_version": 1
+         *     }
+         */
+        Rescore: {
+            /** Split Version */
+            split_version?: number | null;
         };
         /**
          * Restored
@@ -1437,6 +2718,32 @@ export interface components {
              * @enum {string}
              */
             status: "open" | "done" | "discarded";
+        };
+        /**
+         * ReviewRequest
+         * @description False positives to be looked at again.
+         * @example {
+         *       "predictions": [
+         *         3,
+         *         17
+         *       ]
+         *     }
+         */
+        ReviewRequest: {
+            /** Predictions */
+            predictions: number[];
+        };
+        /**
+         * ReviewSent
+         * @description What was put into the image's candidates; what was there already isn't sent again.
+         */
+        ReviewSent: {
+            /** Already There */
+            already_there: number;
+            /** Image Id */
+            image_id: number;
+            /** Sent */
+            sent: number;
         };
         /**
          * RunAnswer
@@ -1619,6 +2926,26 @@ export interface components {
             total: number;
         };
         /**
+         * ScoreAnswer
+         * @description The numbers of a submission under one version of the protocol and the truth.
+         */
+        ScoreAnswer: {
+            /** Done At */
+            done_at: string | null;
+            /** Protocol */
+            protocol: string;
+            /** Protocol Version */
+            protocol_version: string;
+            /** Scorer Version */
+            scorer_version: string;
+            /** Split Version */
+            split_version: number;
+            /** Totals */
+            totals: {
+                [key: string]: components["schemas"]["Estimate"];
+            };
+        };
+        /**
          * ScorePart
          * @description One feature's part in the score.
          */
@@ -1650,6 +2977,47 @@ export interface components {
              * @description What the value is multiplied by.
              */
             weight: number;
+        };
+        /**
+         * ScoredImageAnswer
+         * @description One image of a submission, segment by segment.
+         */
+        ScoredImageAnswer: {
+            /** Display */
+            display: string;
+            /** Height */
+            height: number;
+            /** Image Id */
+            image_id: number;
+            /** Metrics */
+            metrics: {
+                [key: string]: number | null;
+            };
+            /** Name */
+            name: string;
+            /** Next */
+            next: number | null;
+            /** Original */
+            original: string;
+            /** Position */
+            position: number;
+            /** Predictions */
+            predictions: components["schemas"]["PredictionOutcome"][];
+            /** Previous */
+            previous: number | null;
+            /**
+             * Review Target
+             * @description The image that false positives can be sent to.
+             */
+            review_target: number | null;
+            /** Thumbnail */
+            thumbnail: string;
+            /** Total */
+            total: number;
+            /** Truth */
+            truth: components["schemas"]["LabelOutcome"][];
+            /** Width */
+            width: number;
         };
         /**
          * SegmentAnswer
@@ -1725,6 +3093,259 @@ export interface components {
             width: number;
         };
         /**
+         * SplitAbilities
+         * @description What the viewer can do on a split.
+         */
+        SplitAbilities: {
+            /** Maintain */
+            maintain: boolean;
+            /**
+             * See Details
+             * @description See more of scores than rounded totals.
+             */
+            see_details: boolean;
+            /** Submit */
+            submit: boolean;
+        };
+        /**
+         * SplitAnswer
+         * @description Frozen labels that detectors are compared on.
+         * @example {
+         *       "can": {
+         *         "maintain": false,
+         *         "see_details": true,
+         *         "submit": true
+         *       },
+         *       "closed": false,
+         *       "created_at": "2026-05-04T09:30:00Z",
+         *       "daily_limit": 20,
+         *       "dataset": {
+         *         "name": "Downtown, spring",
+         *         "slug": "downtown-spring"
+         *       },
+         *       "min_length": 100,
+         *       "name": "Downtown test",
+         *       "protocol": "clearlines-v2",
+         *       "protocol_version": "1",
+         *       "slug": "downtown-test",
+         *       "submissions": 4,
+         *       "version": {
+         *         "ambiguous": 31,
+         *         "created_at": "2026-05-04T09:30:00Z",
+         *         "images": 85,
+         *         "labels": 2210,
+         *         "number": 1,
+         *         "truth_hash": "0f343b0931126a20f133d67c2b018a3b5b1f6a7d1c6d6c2a0c3e4b7a9f3e2d10"
+         *       },
+         *       "versions": [],
+         *       "visibility": "open"
+         *     }
+         */
+        SplitAnswer: {
+            can: components["schemas"]["SplitAbilities"];
+            /** Closed */
+            closed: boolean;
+            /** Closes At */
+            closes_at: string | null;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Daily Limit */
+            daily_limit: number;
+            /** @description Null when it is gone, or concealed. */
+            dataset: components["schemas"]["SplitDataset"] | null;
+            /** Deleted At */
+            deleted_at: string | null;
+            /** Description */
+            description: string | null;
+            /** @description For maintainers who ask for this one split: whether its labels changed since. */
+            labels_since?: components["schemas"]["LabelsSince"] | null;
+            /** Min Length */
+            min_length: number;
+            /** Name */
+            name: string;
+            /** Protocol */
+            protocol: string;
+            /** Protocol Version */
+            protocol_version: string;
+            /** Slug */
+            slug: string;
+            /**
+             * Submissions
+             * @description Public ones with a score.
+             */
+            submissions: number;
+            version: components["schemas"]["SplitVersionAnswer"];
+            /** Versions */
+            versions: components["schemas"]["SplitVersionAnswer"][];
+            /**
+             * Visibility
+             * @enum {string}
+             */
+            visibility: "open" | "hidden";
+        };
+        /**
+         * SplitChange
+         * @description What to change of a split; a field that is left out stays, ``null`` clears one.
+         * @example {
+         *       "name": "Downtown test 2026"
+         *     }
+         */
+        SplitChange: {
+            /** Closes At */
+            closes_at?: string | null;
+            /** Daily Limit */
+            daily_limit?: number | null;
+            /** Description */
+            description?: string | null;
+            /** Name */
+            name?: string | null;
+        };
+        /**
+         * SplitDataset
+         * @description The dataset that a split was made from.
+         */
+        SplitDataset: {
+            /** Name */
+            name: string;
+            /** Slug */
+            slug: string;
+        };
+        /**
+         * SplitGiven
+         * @description A split to be frozen from a dataset's labels.
+         * @example {
+         *       "closes_at": "2026-12-01T00:00:00Z",
+         *       "daily_limit": 5,
+         *       "description": "85 images of the downtown drives",
+         *       "min_length": 100,
+         *       "name": "Downtown test",
+         *       "visibility": "hidden"
+         *     }
+         */
+        SplitGiven: {
+            /**
+             * Closes At
+             * @description From then on no submission is taken.
+             */
+            closes_at?: string | null;
+            /**
+             * Daily Limit
+             * @description 20 on open, 5 on hidden splits when left out.
+             */
+            daily_limit?: number | null;
+            /** Description */
+            description?: string | null;
+            /**
+             * Image Ids
+             * @description All images whose review is done when left out.
+             */
+            image_ids?: number[] | null;
+            /**
+             * Min Length
+             * @description Shorter labels are ignored; arc length, px.
+             * @default 0
+             */
+            min_length: number;
+            /** Name */
+            name: string;
+            /**
+             * Visibility
+             * @default open
+             * @enum {string}
+             */
+            visibility: "open" | "hidden";
+        };
+        /**
+         * SplitImageAnswer
+         * @description An image that detectors run on.
+         */
+        SplitImageAnswer: {
+            /** Display */
+            display: string;
+            /** Height */
+            height: number;
+            /**
+             * Id
+             * @description Of the split's image, not of the dataset's.
+             */
+            id: number;
+            /**
+             * Name
+             * @description What its file of segments is called, without extension.
+             */
+            name: string;
+            /**
+             * Original
+             * @description Address of the file as it was uploaded.
+             */
+            original: string;
+            /** Sequence */
+            sequence: string | null;
+            /** Source */
+            source: string | null;
+            /** Thumbnail */
+            thumbnail: string;
+            /** Width */
+            width: number;
+        };
+        /**
+         * SplitImagePage
+         * @description Some images of a split.
+         */
+        SplitImagePage: {
+            /** Items */
+            items: components["schemas"]["SplitImageAnswer"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Total */
+            total: number;
+        };
+        /**
+         * SplitName
+         * @description Which split.
+         */
+        SplitName: {
+            /** Name */
+            name: string;
+            /** Slug */
+            slug: string;
+            /**
+             * Visibility
+             * @enum {string}
+             */
+            visibility: "open" | "hidden";
+        };
+        /**
+         * SplitVersionAnswer
+         * @description One frozen truth.
+         */
+        SplitVersionAnswer: {
+            /** Ambiguous */
+            ambiguous: number | null;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Images */
+            images: number;
+            /**
+             * Labels
+             * @description Labels to be found; null where a hidden split conceals it.
+             */
+            labels: number | null;
+            /** Number */
+            number: number;
+            /**
+             * Truth Hash
+             * @description SHA-256 of names, labels and minimum length.
+             */
+            truth_hash: string;
+        };
+        /**
          * StageHistory
          * @description How a candidate was found. Lists run from its first point to its last.
          */
@@ -1775,11 +3396,208 @@ export interface components {
             ];
         };
         /**
+         * Stratum
+         * @description The lines of one kind.
+         */
+        Stratum: {
+            /** Name */
+            name: string;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * SubmissionAbilities
+         * @description What whoever asks can do with a submission.
+         */
+        SubmissionAbilities: {
+            /** Download */
+            download: boolean;
+            /** Rescore */
+            rescore: boolean;
+            /** See Details */
+            see_details: boolean;
+            /** Withdraw */
+            withdraw: boolean;
+        };
+        /**
+         * SubmissionAnswer
+         * @description One upload of a method for a split version, with its scores.
+         */
+        SubmissionAnswer: {
+            /** Attempts */
+            attempts: number;
+            /** Cameras */
+            cameras: {
+                [key: string]: unknown;
+            }[] | null;
+            can: components["schemas"]["SubmissionAbilities"];
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            error: components["schemas"]["SubmissionError"] | null;
+            /** Error Types */
+            error_types: {
+                [key: string]: number;
+            } | null;
+            f1_grid: components["schemas"]["F1Grid"] | null;
+            /** Has Scores */
+            has_scores: boolean;
+            /** Id */
+            id: number;
+            /** Images */
+            images: number;
+            /** Label */
+            label: string | null;
+            /** Log */
+            log: components["schemas"]["LogLine"][];
+            method: components["schemas"]["MethodName"];
+            /** Mine */
+            mine: boolean;
+            /** Missing */
+            missing: string[];
+            /**
+             * Person
+             * @description Absent while the method is anonymous.
+             */
+            person: string | null;
+            /** Points */
+            points: number;
+            /**
+             * Position
+             * @description Place in the queue, from 1.
+             */
+            position: number | null;
+            /** Progress */
+            progress: number;
+            /** Queued At */
+            queued_at: string | null;
+            /** Scored At */
+            scored_at: string | null;
+            /**
+             * Scores
+             * @description Newest first.
+             */
+            scores: components["schemas"]["ScoreAnswer"][];
+            /** Segments */
+            segments: number;
+            split: components["schemas"]["SplitName"];
+            /** Split Version */
+            split_version: number;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "received" | "validating" | "queued" | "scoring" | "scored" | "invalid" | "failed" | "withdrawn";
+            /** Strata */
+            strata: {
+                [key: string]: components["schemas"]["Stratum"][];
+            } | null;
+            /** Submission Hash */
+            submission_hash: string | null;
+            /** Truth Hash */
+            truth_hash: string;
+            /**
+             * Visibility
+             * @enum {string}
+             */
+            visibility: "public" | "private";
+            /** Withdrawn At */
+            withdrawn_at: string | null;
+        };
+        /**
+         * SubmissionChange
+         * @description What to change about a submission.
+         * @example {
+         *       "visibility": "public"
+         *     }
+         */
+        SubmissionChange: {
+            /** Label */
+            label?: string | null;
+            /** Visibility */
+            visibility?: ("public" | "private") | null;
+        };
+        /**
+         * SubmissionError
+         * @description Why a submission is invalid or failed; ``details.errors`` has every complaint of an invalid one.
+         */
+        SubmissionError: {
+            /** Code */
+            code: string;
+            /** Details */
+            details?: {
+                [key: string]: unknown;
+            };
+            /** Expected */
+            expected?: string | null;
+            /** Hint */
+            hint?: string | null;
+            /** Message */
+            message: string;
+            /** Where */
+            where?: string | null;
+        };
+        /**
+         * SubmissionPage
+         * @description A page of submissions.
+         */
+        SubmissionPage: {
+            /** Items */
+            items: components["schemas"]["SubmissionAnswer"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Total */
+            total: number;
+        };
+        /**
+         * TableOneRow
+         * @description How well the candidates did against the labels that were made of them, over one source's labelled images.
+         */
+        TableOneRow: {
+            /** F1 */
+            f1: number | null;
+            /**
+             * F1 V2
+             * @description Under clearlines-v2; precision, recall and F1 are under official-v1.
+             */
+            f1_v2: number | null;
+            /** Images */
+            images: number;
+            /**
+             * Precision
+             * @description Null where it isn't defined.
+             */
+            precision: number | null;
+            /** Recall */
+            recall: number | null;
+            /**
+             * Source
+             * @description Null for images without one; the last row, `all`, has every image.
+             */
+            source: string | null;
+        };
+        /**
          * ThumbnailSize
          * @description Longer side of a thumbnail, px.
          * @enum {integer}
          */
         ThumbnailSize: 160 | 320 | 640;
+        /**
+         * TokenGiven
+         * @description A token to sign in with.
+         * @example {
+         *       "token": "cl_..."
+         *     }
+         */
+        TokenGiven: {
+            /**
+             * Token
+             * @description As `clearlines token create` has printed it.
+             */
+            token: string;
+        };
         /**
          * Updated
          * @description How many were changed.
@@ -1807,6 +3625,26 @@ export interface components {
             labels: number;
         };
         /**
+         * Validation
+         * @description What an upload holds; nothing of it is stored.
+         */
+        Validation: {
+            /** Has Scores */
+            has_scores: boolean;
+            /** Images */
+            images: number;
+            /** Left Out */
+            left_out: components["schemas"]["LeftOutFile"][];
+            /** Missing */
+            missing: string[];
+            /** Points */
+            points: number;
+            /** Segments */
+            segments: number;
+            /** Warnings */
+            warnings: string[];
+        };
+        /**
          * VerdictCounts
          * @description Current candidates by verdict.
          */
@@ -1831,6 +3669,18 @@ export interface components {
              * @default 0
              */
             undecided: number;
+        };
+        /**
+         * VersionGiven
+         * @description Labels to be frozen anew.
+         * @example {}
+         */
+        VersionGiven: {
+            /**
+             * Image Ids
+             * @description The images of the newest version that are still there when left out.
+             */
+            image_ids?: number[] | null;
         };
         /**
          * WorkCounts
@@ -1896,6 +3746,16 @@ export interface operations {
                     "application/json": components["schemas"]["CameraAnswer"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -1956,6 +3816,16 @@ export interface operations {
                     "application/json": components["schemas"]["Configuration"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -1996,6 +3866,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DatasetAnswer"][];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2040,6 +3920,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DatasetAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2094,6 +3984,16 @@ export interface operations {
                     "application/json": components["schemas"]["DatasetAnswer"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2146,6 +4046,16 @@ export interface operations {
                     "application/json": components["schemas"]["Deleted"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2178,7 +4088,7 @@ export interface operations {
             };
         };
     };
-    rename_dataset_api_datasets__slug__patch: {
+    change_dataset_api_datasets__slug__patch: {
         parameters: {
             query?: never;
             header?: never;
@@ -2189,7 +4099,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["DatasetGiven"];
+                "application/json": components["schemas"]["DatasetChange"];
             };
         };
         responses: {
@@ -2200,6 +4110,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DatasetAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2264,6 +4184,140 @@ export interface operations {
                     "application/json": components["schemas"]["CameraAnswer"][];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_card_api_datasets__slug__card_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Card"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_card_figure_api_datasets__slug__card_png_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/png": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2318,6 +4372,16 @@ export interface operations {
                 };
                 content: {
                     "application/zip": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2380,6 +4444,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Facets"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2448,6 +4522,16 @@ export interface operations {
                     "application/json": components["schemas"]["ImagePage"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2502,6 +4586,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["UploadReport"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2570,6 +4664,16 @@ export interface operations {
                     "application/json": components["schemas"]["Updated"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2626,6 +4730,16 @@ export interface operations {
                     "application/json": components["schemas"]["Deleted"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2680,6 +4794,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Restored"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2742,6 +4866,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DatasetAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2808,6 +4942,16 @@ export interface operations {
                     "application/json": components["schemas"]["RunAnswer"][];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2862,6 +5006,92 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    create_split_api_datasets__slug__splits_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SplitGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -2924,6 +5154,16 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -2964,6 +5204,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ImageDetail"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3016,6 +5266,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Deleted"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3072,6 +5332,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ImageDetail"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3136,6 +5406,16 @@ export interface operations {
                     "application/json": components["schemas"]["History"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3190,6 +5470,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DecisionsStored"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3256,6 +5546,16 @@ export interface operations {
                     "image/*": string;
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3308,6 +5608,16 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3358,6 +5668,16 @@ export interface operations {
                 };
                 content: {
                     "application/octet-stream": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3414,6 +5734,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ReviewAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3478,6 +5808,16 @@ export interface operations {
                     "application/json": components["schemas"]["SegmentsAnswer"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3534,6 +5874,16 @@ export interface operations {
                     "image/*": string;
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3546,6 +5896,194 @@ export interface operations {
             };
             /** @description Not Found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_me_api_me_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_method_api_methods__method__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                method: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MethodAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    change_method_api_methods__method__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                method: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MethodChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MethodAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3584,6 +6122,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3638,6 +6186,16 @@ export interface operations {
                     "application/json": components["schemas"]["Deleted"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3688,6 +6246,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3758,6 +6326,16 @@ export interface operations {
                     "application/json": components["schemas"]["RunImagePage"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3808,6 +6386,16 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
                 };
             };
             /** @description Forbidden */
@@ -3872,6 +6460,16 @@ export interface operations {
                     "application/json": components["schemas"]["Retried"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3924,6 +6522,16 @@ export interface operations {
                     "application/json": components["schemas"]["StageHistory"];
                 };
             };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
             /** @description Forbidden */
             403: {
                 headers: {
@@ -3956,6 +6564,2235 @@ export interface operations {
             };
             /** @description Service Unavailable */
             503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    sign_in_api_session_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    sign_out_api_session_delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_splits_api_splits_get: {
+        parameters: {
+            query?: {
+                dataset?: string | null;
+                deleted?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"][];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_split_api_splits__split__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    delete_split_api_splits__split__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    change_split_api_splits__split__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SplitChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_board_api_splits__split__board_get: {
+        parameters: {
+            query?: {
+                version?: number | null;
+                /** @description The rank protocol. */
+                protocol?: string;
+            };
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BoardAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_board_csv_api_splits__split__board_csv_get: {
+        parameters: {
+            query?: {
+                version?: number | null;
+                /** @description The rank protocol. */
+                protocol?: string;
+            };
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_split_images_api_splits__split__images_get: {
+        parameters: {
+            query?: {
+                version?: number | null;
+                /** @description At most this many. */
+                limit?: number;
+                /** @description From ``next_cursor`` of the page before. */
+                cursor?: string | null;
+            };
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitImagePage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_split_display_api_splits__split__images__split_image_id__display_get: {
+        parameters: {
+            query?: never;
+            header?: {
+                "if-none-match"?: string | null;
+            };
+            path: {
+                split: string;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/*": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_split_original_api_splits__split__images__split_image_id__original_get: {
+        parameters: {
+            query?: never;
+            header?: {
+                "if-none-match"?: string | null;
+            };
+            path: {
+                split: string;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_split_thumbnail_api_splits__split__images__split_image_id__thumbnail_get: {
+        parameters: {
+            query?: {
+                size?: components["schemas"]["ThumbnailSize"];
+            };
+            header?: {
+                "if-none-match"?: string | null;
+            };
+            path: {
+                split: string;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/*": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    restore_split_api_splits__split__restore_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_submissions_api_splits__split__submissions_get: {
+        parameters: {
+            query?: {
+                mine?: boolean;
+                status?: ("received" | "validating" | "queued" | "scoring" | "scored" | "invalid" | "failed" | "withdrawn") | null;
+                /** @description At most this many. */
+                limit?: number;
+                /** @description From ``next_cursor`` of the page before. */
+                cursor?: string | null;
+            };
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionPage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    hand_in_api_splits__split__submissions_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_hand_in_api_splits__split__submissions_post"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    validate_submission_api_splits__split__submissions_validate_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_validate_submission_api_splits__split__submissions_validate_post"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Validation"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_truth_file_api_splits__split__truth_get: {
+        parameters: {
+            query?: {
+                version?: number | null;
+                format?: "npz" | "json";
+            };
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": Record<string, never>;
+                    "application/x-npz": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    freeze_again_api_splits__split__versions_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["VersionGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_submission_api_submissions__submission_id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    change_submission_api_submissions__submission_id__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SubmissionChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    compare_api_submissions__submission_id__compare__other__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+                other: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ComparisonAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    watch_submission_api_submissions__submission_id__events_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": unknown;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": unknown;
+                    "text/event-stream": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": unknown;
+                    "text/event-stream": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": unknown;
+                    "text/event-stream": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": unknown;
+                    "text/event-stream": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_file_api_submissions__submission_id__file_get: {
+        parameters: {
+            query?: {
+                /** @description npz: as it is scored; upload: as it came. */
+                form?: "npz" | "upload";
+            };
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_images_api_submissions__submission_id__images_get: {
+        parameters: {
+            query?: {
+                /** @description A metric or `name`; with `-` the largest first. */
+                sort?: string;
+                /** @description Part of the name. */
+                search?: string | null;
+                /** @description At most this many. */
+                limit?: number;
+                /** @description From ``next_cursor`` of the page before. */
+                cursor?: string | null;
+            };
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImageScorePage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_image_api_submissions__submission_id__images__split_image_id__get: {
+        parameters: {
+            query?: {
+                /** @description A metric or `name`; with `-` the largest first. */
+                sort?: string;
+                /** @description Part of the name. */
+                search?: string | null;
+            };
+            header?: never;
+            path: {
+                submission_id: number;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScoredImageAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_overlay_api_submissions__submission_id__images__split_image_id__overlay_png_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/png": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_points_api_submissions__submission_id__images__split_image_id__points_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    send_false_positives_api_submissions__submission_id__images__split_image_id__review_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+                split_image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReviewRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewSent"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_matches_api_submissions__submission_id__matches_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MatchesAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    rescore_api_submissions__submission_id__rescore_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["Rescore"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    restore_api_submissions__submission_id__restore_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    withdraw_api_submissions__submission_id__withdraw_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                submission_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -27,9 +27,14 @@ export function sendFiles(
   files: readonly FileToSend[],
   options: SendOptions,
 ): Promise<UploadReport> {
-  const { onProgress, signal } = options;
   const form = new FormData();
   for (const { file, path } of files) form.append("files", file, path);
+  return sendForm<UploadReport>(`/datasets/${encodeURIComponent(slug)}/images`, form, options);
+}
+
+/** Posts a form to an API path; throws as `sendFiles` does. */
+export function sendForm<T>(path: string, form: FormData, options: SendOptions): Promise<T> {
+  const { onProgress, signal } = options;
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     const abort = () => request.abort();
@@ -40,7 +45,7 @@ export function sendFiles(
     };
     request.onload = () => {
       const body = parsed(request.responseText);
-      if (request.status >= 200 && request.status < 300) return resolve(body as UploadReport);
+      if (request.status >= 200 && request.status < 300) return resolve(body as T);
       reject(
         problemFrom(body, new Response(null, { status: request.status, statusText: request.statusText })),
       );
@@ -48,7 +53,7 @@ export function sendFiles(
     request.onerror = () => reject(unreachable());
     request.onabort = () => reject(aborted());
     request.onloadend = () => signal.removeEventListener("abort", abort);
-    request.open("POST", apiUrl(`/datasets/${encodeURIComponent(slug)}/images`));
+    request.open("POST", apiUrl(path));
     request.send(form);
   });
 }

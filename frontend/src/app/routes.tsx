@@ -29,6 +29,46 @@ export function makeRouter() {
           lazy: async () => ({ Component: (await import("../pages/label/finished_page")).FinishedPage }),
         },
         {
+          path: "/submissions/:id/images/:splitImageId",
+          lazy: async () => ({ Component: (await import("../pages/viewer/viewer_page")).ViewerPage }),
+        },
+        {
+          path: "/datasets/:slug/card",
+          lazy: async () => ({ Component: (await import("../pages/card/card_page")).CardPage }),
+        },
+        {
+          path: "/splits",
+          lazy: async () => ({ Component: (await import("../pages/splits/splits_page")).SplitsPage }),
+        },
+        {
+          path: "/splits/:split",
+          lazy: async () => ({ Component: (await import("../pages/board/board_page")).BoardPage }),
+        },
+        {
+          path: "/splits/:split/submit",
+          lazy: async () => ({ Component: (await import("../pages/submit/submit_page")).SubmitPage }),
+        },
+        {
+          path: "/submissions/:id",
+          lazy: async () => ({
+            Component: (await import("../pages/submission/submission_page")).SubmissionPage,
+          }),
+        },
+        {
+          path: "/submissions/:id/images/:splitImageId",
+          lazy: async () => ({ Component: (await import("../pages/viewer/viewer_page")).ViewerPage }),
+        },
+        {
+          path: "/methods/:slug",
+          lazy: async () => ({ Component: (await import("../pages/method/method_page")).MethodPage }),
+        },
+        {
+          path: "/docs/scoring",
+          lazy: async () => ({
+            Component: (await import("../pages/scoring_docs/scoring_docs_page")).ScoringDocsPage,
+          }),
+        },
+        {
           path: "/docs/api",
           lazy: async () => ({ Component: (await import("../pages/api_docs/api_docs_page")).ApiDocsPage }),
         },

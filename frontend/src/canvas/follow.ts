@@ -1,15 +1,15 @@
-/** Where the view goes when a candidate is selected by key. */
+/** Where the view goes when a line is selected by key. */
 
 import { type Box, boxCentre, boxContains, boxExtent, clamp, growBox } from "./geometry";
 import { centreOn, MAX_SCALE, type Size, type Viewport, visibleBox } from "./viewport";
 
-/** Shorter than this on the screen, a candidate can't be judged (px). */
+/** Shorter than this on the screen, a line can't be judged (px). */
 const READABLE = 14;
-/** What a candidate is enlarged to when it is too small (px). */
+/** What a line is enlarged to when it is too small (px). */
 const COMFORTABLE = 120;
-/** Free space around a candidate that is brought onto the screen, as a share of the screen. */
+/** Free space around a line that is brought onto the screen, as a share of the screen. */
 const EDGE = 0.04;
-/** A candidate that sticks out by less still counts as seen (px). */
+/** A line that sticks out by less still counts as seen (px). */
 const SLACK = 2;
 
 /**

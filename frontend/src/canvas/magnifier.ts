@@ -1,4 +1,4 @@
-/** Three close-ups of a candidate: its start, its middle and its end, pixels visible. */
+/** Three close-ups of a line: its start, its middle and its end, pixels visible. */
 
 import { at } from "./geometry";
 import { type Surface, setScreenUnits, tracePolyline } from "./layers/surface";

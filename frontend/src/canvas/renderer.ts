@@ -1,34 +1,37 @@
 /**
- * Draws the image and its candidates on three canvases, at most once per display frame.
+ * Draws the image and its lines on three canvases, at most once per display frame.
  *
- * What changed decides what is drawn: a hover touches only the highlights; a movement copies the candidates'
+ * What changed decides what is drawn: a hover touches only the highlights; a movement copies the lines'
  * bitmap; a verdict redraws the bitmap along its line; the end of a movement draws the bitmap anew, a few
  * tiles per frame.
  */
 
-import { CandidateBitmap } from "./layers/candidate_bitmap";
-import type { CandidateLook } from "./layers/candidate_layer";
-import { drawHighlights } from "./layers/highlight_layer";
+import { drawCompanions, drawHighlights } from "./layers/highlight_layer";
 import { drawImageLayer } from "./layers/image_layer";
+import { LineBitmap } from "./layers/line_bitmap";
+import type { LineLook } from "./layers/line_layer";
 import { drawStages } from "./layers/stage_layer";
 import { clearSurface, makeSurface, resizeSurface, type Surface, setScreenUnits } from "./layers/surface";
 import { EMPTY_SCENE, type Scene } from "./scene";
 import type { StageTrace } from "./stage_trace";
+import { CANDIDATE_STYLES, LINE_STYLES } from "./style";
 import type { Size, Viewport } from "./viewport";
 
-/** How long the view must rest before the candidates are drawn exactly (ms). */
+/** How long the view must rest before the lines are drawn exactly (ms). */
 const REST = 90;
-/** Beyond this many changed candidates all are drawn anew. */
+/** Beyond this many changed lines all are drawn anew. */
 const MOST_REDRAWN = 24;
 
 export interface RendererState {
   readonly image: CanvasImageSource | null;
   readonly imageSize: Size;
   readonly scene: Scene;
-  readonly look: CandidateLook;
+  readonly look: LineLook;
   readonly viewport: Viewport;
   readonly selected: number | null;
   readonly hovered: number | null;
+  /** Lines that belong to the selected one. */
+  readonly companions: readonly number[];
   /** How the selected candidate was found; null while nobody asks. */
   readonly stages: StageTrace | null;
   /** Which of its gaps is pointed at. */
@@ -36,16 +39,17 @@ export interface RendererState {
 }
 
 /** The parts of the picture that a change touches. */
-export type Change = "view" | "image" | "scene" | "candidates" | "highlights";
+export type Change = "view" | "image" | "scene" | "lines" | "highlights";
 
 const START: RendererState = {
   image: null,
   imageSize: { width: 1, height: 1 },
   scene: EMPTY_SCENE,
-  look: { verdict: () => "undecided", bent: () => false, visible: () => true },
+  look: { styles: CANDIDATE_STYLES, style: () => LINE_STYLES.undecided, visible: () => true },
   viewport: { scale: 1, offsetX: 0, offsetY: 0 },
   selected: null,
   hovered: null,
+  companions: [],
   stages: null,
   markedGap: null,
 };
@@ -57,24 +61,24 @@ export class Renderer {
   private frame: number | null = null;
   private restTimer: ReturnType<typeof setTimeout> | null = null;
   private readonly changed = new Set<Change>();
-  private readonly changedCandidates = new Set<number>();
-  private readonly bitmap = new CandidateBitmap();
+  private readonly changedLines = new Set<number>();
+  private readonly bitmap = new LineBitmap();
   private readonly imageSurface: Surface;
-  private readonly candidateSurface: Surface;
+  private readonly lineSurface: Surface;
   private readonly highlightSurface: Surface;
   private readonly onPainted: (complete: boolean) => void;
   private complete = false;
 
-  /** @param onPainted Hears when an opened image and its candidates are all drawn, and when they aren't any more. */
+  /** @param onPainted Hears when an opened image and its lines are all drawn, and when they aren't any more. */
   constructor(
     image: HTMLCanvasElement,
-    candidates: HTMLCanvasElement,
+    lines: HTMLCanvasElement,
     highlights: HTMLCanvasElement,
     onPainted: (complete: boolean) => void,
   ) {
     this.onPainted = onPainted;
     this.imageSurface = makeSurface(image);
-    this.candidateSurface = makeSurface(candidates);
+    this.lineSurface = makeSurface(lines);
     this.highlightSurface = makeSurface(highlights);
   }
 
@@ -85,16 +89,16 @@ export class Renderer {
     this.schedule();
   }
 
-  /** Another look for some candidates only. */
-  updateLook(look: CandidateLook, indices: readonly number[]): void {
-    for (const index of indices) this.changedCandidates.add(index);
+  /** Another look for some lines only. */
+  updateLook(look: LineLook, indices: readonly number[]): void {
+    for (const index of indices) this.changedLines.add(index);
     this.update({ look }, "highlights");
   }
 
   resize(screen: Size, ratio: number): void {
     this.screen = screen;
     this.ratio = ratio;
-    for (const surface of [this.imageSurface, this.candidateSurface, this.highlightSurface]) {
+    for (const surface of [this.imageSurface, this.lineSurface, this.highlightSurface]) {
       resizeSurface(surface, screen, ratio);
     }
     this.update({}, "view", "image", "highlights");
@@ -122,7 +126,7 @@ export class Renderer {
     if (changed.has("view") || changed.has("image")) {
       drawImageLayer(this.imageSurface, image, imageSize, viewport, this.ratio);
     }
-    if (this.drawCandidates(changed)) this.bitmap.copyTo(this.candidateSurface, viewport, this.ratio);
+    if (this.drawLines(changed)) this.bitmap.copyTo(this.lineSurface, viewport, this.ratio);
     this.drawHighlights();
     if (this.bitmap.drawing) this.schedule();
     this.tellPainted();
@@ -138,13 +142,13 @@ export class Renderer {
   }
 
   /** Brings the bitmap up to date as far as one frame allows; true where the screen has to follow. */
-  private drawCandidates(changed: ReadonlySet<Change>): boolean {
+  private drawLines(changed: ReadonlySet<Change>): boolean {
     const { scene, look, viewport } = this.state;
     const moved = changed.has("view");
     if (moved) this.drawAfterRest();
     if (changed.has("scene")) this.bitmap.reset();
     const redrawn = this.redrawChanged();
-    const anew = changed.has("scene") || changed.has("candidates") || redrawn === "too many";
+    const anew = changed.has("scene") || changed.has("lines") || redrawn === "too many";
     if (anew) this.bitmap.start(scene, viewport, this.screen, this.ratio);
     const drawing = this.bitmap.drawing;
     if (drawing) this.bitmap.drawTiles(scene, look);
@@ -153,13 +157,13 @@ export class Renderer {
 
   private redrawChanged(): "nothing" | "redrawn" | "too many" {
     const { scene, look } = this.state;
-    const indices = [...this.changedCandidates];
-    this.changedCandidates.clear();
+    const indices = [...this.changedLines];
+    this.changedLines.clear();
     if (indices.length === 0) return "nothing";
-    // A drawing under way may have passed these candidates already.
+    // A drawing under way may have passed these lines already.
     if (indices.length > MOST_REDRAWN) return "too many";
     this.bitmap.redraw(indices, scene, look);
-    if (this.bitmap.drawing) this.changed.add("candidates");
+    if (this.bitmap.drawing) this.changed.add("lines");
     return "redrawn";
   }
 
@@ -168,21 +172,22 @@ export class Renderer {
     if (this.restTimer !== null) clearTimeout(this.restTimer);
     this.restTimer = setTimeout(() => {
       this.restTimer = null;
-      this.update({}, "candidates");
+      this.update({}, "lines");
     }, REST);
   }
 
   private drawHighlights(): void {
-    const { scene, look, viewport, selected, hovered, stages, markedGap } = this.state;
+    const { scene, look, viewport, selected, hovered, companions, stages, markedGap } = this.state;
     clearSurface(this.highlightSurface);
     setScreenUnits(this.highlightSurface, this.ratio);
     const { context } = this.highlightSurface;
-    // A trace that came for a candidate selected before is not drawn.
+    // A trace that came for a line selected before is not drawn.
     const trace = stages !== null && stages.index === selected ? stages : null;
     if (trace === null) drawHighlights(context, scene, look, viewport, selected, hovered);
     else {
       drawHighlights(context, scene, look, viewport, null, hovered === selected ? null : hovered);
       drawStages(context, trace, viewport, markedGap);
     }
+    drawCompanions(context, scene, viewport, companions);
   }
 }

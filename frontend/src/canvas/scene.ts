@@ -1,4 +1,4 @@
-/** The candidates of one image, ready to be drawn and pointed at. Never changes: verdicts live elsewhere. */
+/** The lines of one image, ready to be drawn and pointed at. Never changes: verdicts live elsewhere. */
 
 import type { Polylines } from "./decode";
 import { at, type Box, boxOf, distanceToPolyline } from "./geometry";

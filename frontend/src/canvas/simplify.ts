@@ -8,6 +8,9 @@
 
 import { at, squaredDistanceToPiece } from "./geometry";
 
+/** A vertex that is nearer to its chord is never seen, at no zoom (px); straight lines would be gone through point by point. */
+const INVISIBLE = 1e-3;
+
 /** The tolerance in px at which each vertex disappears; the ends of a polyline never do (infinity). */
 export function vertexTolerances(coordinates: Float32Array, offsets: Uint32Array): Float32Array {
   const tolerances = new Float32Array(coordinates.length / 2);
@@ -27,6 +30,7 @@ function rank(coordinates: Float32Array, first: number, last: number, tolerances
     const start = stack.pop() as number;
     if (end - start < 2) continue;
     const { index, distance } = farthest(coordinates, start, end);
+    if (distance < INVISIBLE) continue;
     // A vertex never outlives the one that split its piece, so that each level contains the coarser ones.
     const tolerance = Math.min(distance, limit);
     tolerances[index] = tolerance;

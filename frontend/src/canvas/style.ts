@@ -1,8 +1,8 @@
 /**
- * How candidates look on an image.
+ * How lines look on an image.
  *
- * The colours are after the palette of Okabe and Ito ("Color Universal Design", 2008), brightened, and told
- * apart without colour too: by width, dashes and markers. A dark casing under each line keeps it readable on
+ * The colours of candidates are after the palette of Okabe and Ito ("Color Universal Design", 2008), brightened, and
+ * told apart without colour too: by width, dashes and markers. A dark casing under each line keeps it readable on
  * bright pixels, the bright core on dark ones.
  */
 
@@ -30,6 +30,9 @@ export const BENT_STYLE: LineStyle = { colour: "#c9b8ff", width: 1.4, dash: [14,
 export const CASING = { colour: "rgba(6, 10, 16, 0.62)", extra: 2.2 } as const;
 export const SELECTION = { halo: "#ffffff", casing: "rgba(6, 10, 16, 0.85)", width: 3.2 } as const;
 
+/** What belongs to the selected line, such as the label that a prediction comes closest to. */
+export const COMPANION = { colour: "#ffffff", width: 1.6, dash: [1.5, 3.5] } as const;
+
 /**
  * How a candidate was found. The pieces' colours take turns and differ in hue and lightness for everybody; ticks at
  * their ends, dashes over gaps and dots along what was added say the same without colour.
@@ -55,3 +58,6 @@ export function styleName(verdict: Verdict, bent: boolean): StyleName {
 export function lineStyle(name: StyleName): LineStyle {
   return name === "bent" ? BENT_STYLE : LINE_STYLES[name];
 }
+
+/** The styles of candidates in their drawing order. */
+export const CANDIDATE_STYLES: readonly LineStyle[] = STYLE_ORDER.map(lineStyle);

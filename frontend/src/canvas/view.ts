@@ -4,7 +4,7 @@ import { follow } from "./follow";
 import { boxCentre, type Point } from "./geometry";
 import { listenToGestures } from "./gestures";
 import { between, glide } from "./glide";
-import type { CandidateLook } from "./layers/candidate_layer";
+import type { LineLook } from "./layers/line_layer";
 import { Renderer } from "./renderer";
 import { EMPTY_SCENE, type Hit, type Scene } from "./scene";
 import type { StageTrace } from "./stage_trace";
@@ -33,18 +33,19 @@ const CLOSE_SCALE = 6;
 const SAME_PLACE = 3;
 
 export interface ViewListener {
-  /** The candidate under the pointer, and where on the screen the pointer is. */
+  /** The line under the pointer, and where on the screen the pointer is. */
   hover(index: number | null, screen: Point | null): void;
-  /** Candidates at the clicked place, nearest first; `again` where the click before was there too. */
+  /** Lines at the clicked place, nearest first; `again` where the click before was there too. */
   click(hits: readonly Hit[], again: boolean): void;
+  /** The view moved, by hand or by itself, but not along with another one. */
   viewChanged(viewport: Viewport): void;
-  /** Image and candidates are on the screen, or aren't any more because others were opened. */
+  /** Image and lines are on the screen, or aren't any more because others were opened. */
   painted(complete: boolean): void;
 }
 
 export interface ViewCanvases {
   readonly image: HTMLCanvasElement;
-  readonly candidates: HTMLCanvasElement;
+  readonly lines: HTMLCanvasElement;
   readonly highlights: HTMLCanvasElement;
 }
 
@@ -64,7 +65,7 @@ export class CanvasView {
   private fitted = true;
   private hovered: number | null = null;
   private selected: number | null = null;
-  /** Where the view was before it zoomed for a tiny or huge candidate; it goes back there for the next one. */
+  /** Where the view was before it zoomed for a tiny or huge line; it goes back there for the next one. */
   private beforeZoom: Viewport | null = null;
   /** Where a gliding view is going. */
   private goal: Viewport | null = null;
@@ -74,7 +75,7 @@ export class CanvasView {
   constructor(host: HTMLElement, canvases: ViewCanvases, listener: ViewListener) {
     this.host = host;
     this.listener = listener;
-    this.renderer = new Renderer(canvases.image, canvases.candidates, canvases.highlights, listener.painted);
+    this.renderer = new Renderer(canvases.image, canvases.lines, canvases.highlights, listener.painted);
     this.stopGestures = listenToGestures(host, {
       zoom: (position, factor) => {
         this.moveTo(zoomAt(this.viewport, position, factor, this.minScale()));
@@ -106,7 +107,15 @@ export class CanvasView {
     this.selected = null;
     this.lastClick = null;
     this.renderer.update(
-      { image: null, imageSize, scene: EMPTY_SCENE, selected: null, hovered: null, stages: null },
+      {
+        image: null,
+        imageSize,
+        scene: EMPTY_SCENE,
+        selected: null,
+        hovered: null,
+        companions: [],
+        stages: null,
+      },
       "image",
       "scene",
     );
@@ -120,23 +129,39 @@ export class CanvasView {
   setScene(scene: Scene): void {
     this.scene = scene;
     this.renderer.update({ scene }, "scene");
+    // What was under the pointer belonged to another scene.
+    if (this.hovered !== null) this.hover(null);
   }
 
-  /** @param changed The candidates that look different now; absent where any may. */
-  setLook(look: CandidateLook, changed?: readonly number[]): void {
+  /** @param changed The lines that look different now; absent where any may. */
+  setLook(look: LineLook, changed?: readonly number[]): void {
     this.visible = look.visible;
-    if (changed === undefined) this.renderer.update({ look }, "candidates");
+    if (changed === undefined) this.renderer.update({ look }, "lines");
     else this.renderer.updateLook(look, changed);
   }
 
-  setSelected(selected: number | null): void {
+  /** @param companions Lines that belong to the selected one and are pointed out with it. */
+  setSelected(selected: number | null, companions: readonly number[] = []): void {
     this.selected = selected;
-    this.renderer.update({ selected }, "highlights");
+    this.renderer.update({ selected, companions }, "highlights");
   }
 
-  /** Draws how a candidate was found in place of its highlight, as long as it is selected; null: no longer. */
+  /** Draws how a line was found in place of its highlight, as long as it is selected; null: no longer. */
   setStages(stages: StageTrace | null, marked: number | null): void {
     this.renderer.update({ stages, markedGap: marked }, "highlights");
+  }
+
+  get current(): Viewport {
+    return this.viewport;
+  }
+
+  /** Shows the same part of the image as another view, whose movements this one goes along with. */
+  mirror(viewport: Viewport): void {
+    this.stopGlide();
+    this.goal = null;
+    this.beforeZoom = null;
+    this.setViewport(viewport, false);
+    this.fitted = sameViewport(this.viewport, fitted(this.imageSize, this.screen));
   }
 
   fit(): void {
@@ -144,7 +169,7 @@ export class CanvasView {
     this.fitted = true;
   }
 
-  /** Zooms at the selected candidate, which is what one wants to see closer, else at the middle. */
+  /** Zooms at the selected line, which is what one wants to see closer, else at the middle. */
   zoomStep(direction: 1 | -1): void {
     this.moveTo(zoomAt(this.viewport, this.zoomCentre(), ZOOM_STEP ** direction, this.minScale()));
   }
@@ -154,7 +179,7 @@ export class CanvasView {
     this.moveTo(pan(this.viewport, dx * this.screen.width, dy * this.screen.height));
   }
 
-  /** Brings a candidate onto the screen if it isn't there, or is too small to be judged. */
+  /** Brings a line onto the screen if it isn't there, or is too small to be judged. */
   show(index: number): void {
     const box = this.scene.boxes[index];
     if (box === undefined) return;
@@ -166,7 +191,7 @@ export class CanvasView {
     this.fitted = wasFitted && to === from;
   }
 
-  /** Goes close to a position for a look; the next candidate is shown from where the view was. */
+  /** Goes close to a position for a look; the next line is shown from where the view was. */
   lookAt(position: Point): void {
     const from = this.beforeZoom ?? this.goal ?? this.viewport;
     this.glideTo(centreOn(position, Math.max(from.scale, CLOSE_SCALE), this.screen));
@@ -210,7 +235,7 @@ export class CanvasView {
     return Math.min(1, fitScale(this.imageSize, this.screen)) / 2;
   }
 
-  private setViewport(wanted: Viewport): void {
+  private setViewport(wanted: Viewport, aloud = true): void {
     const viewport = keepInReach(wanted, this.imageSize, this.screen);
     if (sameViewport(viewport, this.viewport)) return;
     this.viewport = viewport;
@@ -218,7 +243,7 @@ export class CanvasView {
     // Another line may be under the resting pointer now; it counts again once it moves.
     if (this.hovered !== null) this.hover(null);
     this.renderer.update({ viewport }, "view");
-    this.listener.viewChanged(viewport);
+    if (aloud) this.listener.viewChanged(viewport);
   }
 
   private hover(position: Point | null): void {

@@ -1,6 +1,7 @@
 import { type ReactNode, useEffect } from "react";
-import { Link } from "react-router";
-import { Logo } from "./icons";
+import { Link, useLocation } from "react-router";
+import { Icon, type IconName, Logo } from "./icons";
+import { SignIn } from "./sign_in";
 import { ThemeToggle } from "./theme_toggle";
 
 export interface Crumb {
@@ -8,6 +9,16 @@ export interface Crumb {
   /** Absent on the page itself. */
   to?: string;
 }
+
+const AREAS: readonly { to: string; name: string; icon: IconName; within: RegExp }[] = [
+  { to: "/", name: "Datasets", icon: "images", within: /^\/($|datasets)/ },
+  {
+    to: "/splits",
+    name: "Leaderboards",
+    icon: "podium",
+    within: /^\/(splits|submissions|methods|docs\/scoring)/,
+  },
+];
 
 interface PageFrameProps {
   crumbs: Crumb[];
@@ -20,6 +31,7 @@ interface PageFrameProps {
 
 /** The bar with product name and breadcrumbs, and the page below it. */
 export function PageFrame({ crumbs, actions, scrolling = true, children }: PageFrameProps) {
+  const { pathname } = useLocation();
   const title = crumbs.at(-1)?.label;
   useEffect(() => {
     document.title = title ? `${title} - ClearLines` : "ClearLines";
@@ -46,6 +58,21 @@ export function PageFrame({ crumbs, actions, scrolling = true, children }: PageF
         </nav>
         <div className="top-bar__end">
           {actions}
+          <nav className="top-bar__areas" aria-label="Areas">
+            {AREAS.map(({ to, name, icon, within }) => (
+              <Link
+                key={to}
+                to={to}
+                className="top-bar__area"
+                aria-current={within.test(pathname)}
+                title={name}
+              >
+                <Icon name={icon} />
+                <span className="top-bar__area-name">{name}</span>
+              </Link>
+            ))}
+          </nav>
+          <SignIn />
           <ThemeToggle />
         </div>
       </header>

@@ -1,6 +1,9 @@
-import { type ReactNode, useEffect, useId, useRef, useState } from "react";
+import { type ReactNode, useEffect, useId, useLayoutEffect, useRef, useState } from "react";
 import { buttonClass } from "./button";
 import { Icon, type IconName } from "./icons";
+
+/** What a panel keeps to the edges of the window, px. */
+const EDGE = 8;
 
 interface PopoverProps {
   label: string;
@@ -18,6 +21,7 @@ export function Popover({ label, icon, iconOnly, tone, small, align = "end", chi
   const [open, setOpen] = useState(false);
   const root = useRef<HTMLDivElement>(null);
   const button = useRef<HTMLButtonElement>(null);
+  const panel = useRef<HTMLDivElement>(null);
   const panelId = useId();
 
   useEffect(() => {
@@ -27,6 +31,14 @@ export function Popover({ label, icon, iconOnly, tone, small, align = "end", chi
     };
     window.addEventListener("pointerdown", onPointerDown);
     return () => window.removeEventListener("pointerdown", onPointerDown);
+  }, [open]);
+
+  useLayoutEffect(() => {
+    const shown = panel.current;
+    if (!open || !shown) return;
+    const { left, right } = shown.getBoundingClientRect();
+    const overRight = Math.max(0, right - (document.documentElement.clientWidth - EDGE));
+    shown.style.translate = `${left < EDGE ? EDGE - left : -overRight}px`;
   }, [open]);
 
   const close = () => {
@@ -60,7 +72,7 @@ export function Popover({ label, icon, iconOnly, tone, small, align = "end", chi
         {iconOnly ? null : <Icon name="down" size={12} />}
       </button>
       {open ? (
-        <div id={panelId} className={`popover__panel popover__panel--${align}`}>
+        <div ref={panel} id={panelId} className={`popover__panel popover__panel--${align}`}>
           {children(close)}
         </div>
       ) : null}

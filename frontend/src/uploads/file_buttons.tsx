@@ -6,10 +6,12 @@ import { type Picked, readFileList } from "./picked_files";
 interface FileButtonsProps {
   onPicked: (picked: Picked) => void;
   tone?: "default" | "primary";
+  /** Endings that the file dialog offers. */
+  accept?: string;
 }
 
 /** The ways to choose files for those who don't drag. */
-export function FileButtons({ onPicked, tone = "default" }: FileButtonsProps) {
+export function FileButtons({ onPicked, tone = "default", accept = ACCEPTED }: FileButtonsProps) {
   const files = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
   const take = (input: HTMLInputElement) => {
@@ -30,7 +32,7 @@ export function FileButtons({ onPicked, tone = "default" }: FileButtonsProps) {
         type="file"
         multiple
         hidden
-        accept={ACCEPTED}
+        accept={accept}
         aria-label="Files"
         onChange={(event) => take(event.currentTarget)}
       />

@@ -7,11 +7,13 @@ import "./uploads.css";
 interface FileDropProps {
   /** What a drop does: "Drop to add to KITTI". */
   label: string;
+  /** What can be dropped. */
+  hint?: string;
   onPicked: (picked: Picked) => void;
 }
 
 /** Takes files dropped anywhere on the page, and says so while they hang over it. */
-export function FileDrop({ label, onPicked }: FileDropProps) {
+export function FileDrop({ label, hint = "Images, folders, zips, label files", onPicked }: FileDropProps) {
   const [hovering, setHovering] = useState(false);
   const latest = useRef(onPicked);
   latest.current = onPicked;
@@ -62,7 +64,7 @@ export function FileDrop({ label, onPicked }: FileDropProps) {
       <div className="file-drop__label">
         <Icon name="upload" size={28} />
         <strong>{label}</strong>
-        <span>Images, folders, zips, label files</span>
+        <span>{hint}</span>
       </div>
     </div>
   ) : null;

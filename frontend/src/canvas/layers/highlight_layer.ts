@@ -1,16 +1,16 @@
-/** The selected and the hovered candidate, above all others. */
+/** The selected and the hovered line, above all others, and what belongs to the selected one. */
 
 import { at } from "../geometry";
 import type { Scene } from "../scene";
-import { lineStyle, SELECTION, styleName } from "../style";
+import { COMPANION, SELECTION } from "../style";
 import { toScreen, type Viewport } from "../viewport";
-import type { CandidateLook } from "./candidate_layer";
+import type { LineLook } from "./line_layer";
 import { strokePath, tracePolyline } from "./surface";
 
 export function drawHighlights(
   context: CanvasRenderingContext2D,
   scene: Scene,
-  look: CandidateLook,
+  look: LineLook,
   viewport: Viewport,
   selected: number | null,
   hovered: number | null,
@@ -19,15 +19,29 @@ export function drawHighlights(
   if (selected !== null) drawSelected(context, scene, look, viewport, selected);
 }
 
+/** Draws the lines that belong to the selected one: thin and dotted, so that both can be compared. */
+export function drawCompanions(
+  context: CanvasRenderingContext2D,
+  scene: Scene,
+  viewport: Viewport,
+  companions: readonly number[],
+): void {
+  for (const index of companions) {
+    const path = pathOf(scene, viewport, index);
+    strokePath(context, path, SELECTION.casing, COMPANION.width + 2.4);
+    strokePath(context, path, COMPANION.colour, COMPANION.width, COMPANION.dash);
+  }
+}
+
 function drawHovered(
   context: CanvasRenderingContext2D,
   scene: Scene,
-  look: CandidateLook,
+  look: LineLook,
   viewport: Viewport,
   index: number,
 ): void {
   const path = pathOf(scene, viewport, index);
-  const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
+  const style = look.style(index);
   // Without knobs at its ends and thinner than the selection, and like that with a dark rim on bright pixels.
   strokePath(context, path, SELECTION.casing, style.width + 7.6);
   strokePath(context, path, SELECTION.halo, style.width + 5);
@@ -38,12 +52,12 @@ function drawHovered(
 function drawSelected(
   context: CanvasRenderingContext2D,
   scene: Scene,
-  look: CandidateLook,
+  look: LineLook,
   viewport: Viewport,
   index: number,
 ): void {
   const path = pathOf(scene, viewport, index);
-  const style = lineStyle(styleName(look.verdict(index), look.bent(index)));
+  const style = look.style(index);
   strokePath(context, path, SELECTION.casing, SELECTION.width + 9);
   strokePath(context, path, SELECTION.halo, SELECTION.width + 5.6);
   strokePath(context, path, SELECTION.casing, SELECTION.width + 1.8);

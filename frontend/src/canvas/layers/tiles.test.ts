@@ -10,9 +10,9 @@ describe("tiles", () => {
     [60, 1],
     [2000, 34],
     [100_000, 40],
-  ])("of %d candidates are at least the number needed", (candidates, least) => {
-    expect(tilesOf(1900, 1400, candidates).length).toBeGreaterThanOrEqual(least);
-    expect(tilesOf(1900, 1400, candidates).length).toBeLessThanOrEqual(2 * least + 2);
+  ])("of %d lines are at least the number needed", (lines, least) => {
+    expect(tilesOf(1900, 1400, lines).length).toBeGreaterThanOrEqual(least);
+    expect(tilesOf(1900, 1400, lines).length).toBeLessThanOrEqual(2 * least + 2);
   });
 
   it("cover the bitmap without overlap", () => {

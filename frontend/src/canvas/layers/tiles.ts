@@ -8,8 +8,8 @@ import { toImage, toScreen, type Viewport } from "../viewport";
 const LINE_REACH = 5;
 /** A line is covered by this many boxes at most: one box around a diagonal would be mostly empty. */
 const PIECES = 10;
-/** Candidates per tile that can be drawn within one frame. */
-const CANDIDATES_PER_TILE = 60;
+/** Lines per tile that can be drawn within one frame. */
+const LINES_PER_TILE = 60;
 const MOST_TILES = 40;
 
 /** The canvas px that show an image box. */
@@ -32,9 +32,9 @@ export function imageBox(box: Box, viewport: Viewport, ratio: number, margin: nu
   return growBox(seen, LINE_REACH / viewport.scale);
 }
 
-/** A bitmap cut into as many tiles as its candidates ask for, from top to bottom. */
-export function tilesOf(width: number, height: number, candidates: number): Box[] {
-  const wanted = Math.min(MOST_TILES, Math.max(1, Math.ceil(candidates / CANDIDATES_PER_TILE)));
+/** A bitmap cut into as many tiles as its lines ask for, from top to bottom. */
+export function tilesOf(width: number, height: number, lines: number): Box[] {
+  const wanted = Math.min(MOST_TILES, Math.max(1, Math.ceil(lines / LINES_PER_TILE)));
   const rows = Math.max(1, Math.round(Math.sqrt((wanted * height) / width)));
   const columns = Math.max(1, Math.ceil(wanted / rows));
   const tiles: Box[] = [];

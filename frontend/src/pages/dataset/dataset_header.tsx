@@ -1,5 +1,5 @@
 import { type ReactNode, useState } from "react";
-import { useNavigate } from "react-router";
+import { Link, useNavigate } from "react-router";
 import type { Dataset } from "../../api/types";
 import { Button } from "../../design/button";
 import { Ellipsis } from "../../design/ellipsis";
@@ -121,13 +121,21 @@ function More({ dataset }: { dataset: Dataset }) {
   return (
     <Popover label="More" icon="more" iconOnly tone="quiet">
       {() => (
-        <button
-          type="button"
-          className="menu-item menu-item--danger"
-          onClick={async () => (await remove(dataset)) && navigate("/")}
-        >
-          <Icon name="trash" /> Delete this dataset
-        </button>
+        <>
+          <Link className="menu-item dataset-header__link" to={`/datasets/${dataset.slug}/card`}>
+            <Icon name="paper" /> Dataset card
+          </Link>
+          <Link className="menu-item dataset-header__link" to="?tab=splits">
+            <Icon name="podium" /> Splits and leaderboards
+          </Link>
+          <button
+            type="button"
+            className="menu-item menu-item--danger"
+            onClick={async () => (await remove(dataset)) && navigate("/")}
+          >
+            <Icon name="trash" /> Delete this dataset
+          </button>
+        </>
       )}
     </Popover>
   );

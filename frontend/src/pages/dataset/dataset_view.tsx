@@ -19,11 +19,12 @@ import { ImagesTab } from "./images_tab";
 import { PrelabelPanel } from "./prelabel_panel";
 import { RunStrip } from "./run_strip";
 import { RunsTab } from "./runs_tab";
+import { SplitsTab } from "./splits_tab";
 import { useFollow } from "./use_follow";
 import { useRuns } from "./use_runs";
 
 const COUNTS_MS = 2_000;
-const TABS = ["images", "runs", "cameras"] as const;
+const TABS = ["images", "runs", "cameras", "splits"] as const;
 type Tab = (typeof TABS)[number];
 
 export function DatasetView({ dataset }: { dataset: Dataset }) {
@@ -84,6 +85,7 @@ export function DatasetView({ dataset }: { dataset: Dataset }) {
           ) : null}
           {tab === "runs" ? <RunsTab slug={slug} runs={runs} onPrelabel={() => openPrelabel()} /> : null}
           {tab === "cameras" ? <CamerasTab slug={slug} /> : null}
+          {tab === "splits" ? <SplitsTab dataset={dataset} /> : null}
         </>
       )}
       <FileDrop label={`Drop to add to ${dataset.name}`} onPicked={pick} />
@@ -96,6 +98,7 @@ function Tabs({ tab, images, runs }: { tab: Tab; images: number; runs: number | 
     { name: "images", text: "Images", count: images },
     { name: "runs", text: "Runs", count: runs },
     { name: "cameras", text: "Cameras", count: undefined },
+    { name: "splits", text: "Splits", count: undefined },
   ];
   return (
     <nav className="tabs" aria-label="Parts of the dataset">

@@ -156,7 +156,10 @@ function PageFoot() {
   return (
     <footer className="datasets-page__foot muted">
       <span>ClearLines {configuration.data?.version}</span>
-      <Link to="/docs/api">API documentation</Link>
+      <span className="datasets-page__links">
+        <Link to="/docs/scoring">How results are scored</Link>
+        <Link to="/docs/api">API documentation</Link>
+      </span>
     </footer>
   );
 }

@@ -1,17 +1,13 @@
-import { type RefObject, useLayoutEffect, useRef, useState } from "react";
+import { type RefObject, useLayoutEffect, useState } from "react";
 import type { ImageDetail } from "../../api/types";
-import type { Point } from "../../canvas/geometry";
-import type { CandidateLook } from "../../canvas/layers/candidate_layer";
+import type { LineLook } from "../../canvas/layers/line_layer";
 import type { Hit, Scene } from "../../canvas/scene";
-import { CanvasView } from "../../canvas/view";
+import { CANDIDATE_STYLES, lineStyle, styleName } from "../../canvas/style";
+import type { CanvasView } from "../../canvas/view";
+import { ImageCanvas, type PointerPlace } from "../../image_view/image_canvas";
 import { isBent, isShown, type LabelState, verdictAt } from "../../labelling/label_state";
 import type { LabelStore } from "../../labelling/label_store";
-import { HoverReadout } from "./hover_readout";
-
-export interface PointerPlace {
-  index: number;
-  screen: Point;
-}
+import { CandidateReadout } from "./candidate_readout";
 
 interface CanvasRegionProps {
   image: ImageDetail;
@@ -23,76 +19,35 @@ interface CanvasRegionProps {
   onScale: (scale: number) => void;
 }
 
-/**
- * The image with its candidates. Everything that moves is drawn by the canvas engine, not by React; what React
- * changes reaches it before the next frame, so that image and panel never belong to different images.
- */
+/** The image with its candidates. */
 export function CanvasRegion(props: CanvasRegionProps) {
   const { image, bitmap, scene, store, viewRef, regionRef, onScale } = props;
-  const { id, width, height } = image;
-  const imageCanvas = useRef<HTMLCanvasElement>(null);
-  const candidateCanvas = useRef<HTMLCanvasElement>(null);
-  const highlightCanvas = useRef<HTMLCanvasElement>(null);
-  const storeRef = useRef(store);
   const [pointer, setPointer] = useState<PointerPlace | null>(null);
-  const [paintedId, setPaintedId] = useState<number | null>(null);
-  const openedId = useRef(id);
-  storeRef.current = store;
-
-  useLayoutEffect(() => {
-    const host = regionRef.current;
-    const canvases = [imageCanvas.current, candidateCanvas.current, highlightCanvas.current] as const;
-    const [imageLayer, candidates, highlights] = canvases;
-    if (host === null || imageLayer === null || candidates === null || highlights === null) return;
-    const view = new CanvasView(
-      host,
-      { image: imageLayer, candidates, highlights },
-      {
-        hover: (index, screen) => setPointer(index === null || screen === null ? null : { index, screen }),
-        click: (hits, again) => selectHit(storeRef.current, hits, again),
-        viewChanged: ({ scale }) => onScale(scale),
-        painted: (complete) => setPaintedId(complete ? openedId.current : null),
-      },
-    );
-    viewRef.current = view;
-    return () => {
-      view.dispose();
-      viewRef.current = null;
-    };
-  }, [regionRef, viewRef, onScale]);
-
-  useLayoutEffect(() => {
-    openedId.current = id;
-    viewRef.current?.open({ width, height });
-  }, [viewRef, id, width, height]);
-
-  useLayoutEffect(() => {
-    viewRef.current?.setImage(bitmap);
-  }, [viewRef, bitmap]);
 
   useLayoutEffect(() => {
     const view = viewRef.current;
     if (view === null || store === null || scene === null) return;
-    view.setScene(scene);
     return drawStore(view, store);
   }, [viewRef, store, scene]);
 
   return (
-    <section
-      ref={regionRef}
+    <ImageCanvas
+      imageKey={image.id}
+      width={image.width}
+      height={image.height}
+      bitmap={bitmap}
+      scene={store === null ? null : scene}
+      viewRef={viewRef}
+      regionRef={regionRef}
       className="label-canvas"
-      role="application"
-      aria-label={`Image ${image.name} with candidates. Tab goes through them, Escape twice leaves.`}
-      aria-describedby="label-selection"
-      aria-busy={paintedId !== id}
-      // biome-ignore lint/a11y/noNoninteractiveTabindex: the image is operated by keys, as an application region
-      tabIndex={0}
+      label={`Image ${image.name} with candidates. Tab goes through them, Escape twice leaves.`}
+      describedBy="label-selection"
+      onHover={(place) => setPointer(place?.index == null ? null : place)}
+      onClick={(hits, again) => selectHit(store, hits, again)}
+      onViewport={({ scale }) => onScale(scale)}
     >
-      <canvas ref={imageCanvas} />
-      <canvas ref={candidateCanvas} />
-      <canvas ref={highlightCanvas} />
-      {store && pointer ? <HoverReadout store={store} pointer={pointer} /> : null}
-    </section>
+      {store && pointer ? <CandidateReadout store={store} pointer={pointer} /> : null}
+    </ImageCanvas>
   );
 }
 
@@ -112,10 +67,10 @@ function drawStore(view: CanvasView, store: LabelStore): () => void {
   });
 }
 
-function lookOf(state: LabelState): CandidateLook {
+function lookOf(state: LabelState): LineLook {
   return {
-    verdict: (index) => verdictAt(state, index),
-    bent: (index) => isBent(state, index),
+    styles: CANDIDATE_STYLES,
+    style: (index) => lineStyle(styleName(verdictAt(state, index), isBent(state, index))),
     visible: (index) => isShown(state, index),
   };
 }

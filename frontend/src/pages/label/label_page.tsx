@@ -1,13 +1,13 @@
 import { Link, useParams } from "react-router";
 import { buttonClass } from "../../design/button";
-import { splitForEllipsis } from "../../design/format";
 import { PageFrame } from "../../design/page_frame";
 import { ErrorState, LoadingState } from "../../design/states";
+import { shortName } from "../../image_view/short_name";
 import { LabelWorkspace } from "./label_workspace";
 import { SaveIndicator } from "./save_indicator";
 import { useLabelSession } from "./use_label_session";
-import "./label.css";
-import "./panel.css";
+import "../../image_view/image_view.css";
+import "../../image_view/panel.css";
 
 /** The label page of one image; its address can be shared. */
 export function LabelPage() {
@@ -20,7 +20,7 @@ export function LabelPage() {
       crumbs={[
         { label: "Datasets", to: "/" },
         { label: image?.dataset.name ?? slug, to: `/datasets/${slug}` },
-        { label: image === undefined ? "Image" : shortened(image.name) },
+        { label: image === undefined ? "Image" : shortName(image.name) },
       ]}
       actions={<SaveIndicator />}
     >
@@ -41,13 +41,4 @@ export function LabelPage() {
       )}
     </PageFrame>
   );
-}
-
-const LONGEST_BEGINNING = 40;
-const END = 20;
-
-/** A long name without its middle: names of one folder differ at their end. */
-function shortened(name: string): string {
-  const [beginning, end] = splitForEllipsis(name, END);
-  return beginning.length <= LONGEST_BEGINNING ? name : `${beginning.slice(0, LONGEST_BEGINNING)}…${end}`;
 }

@@ -1,27 +1,39 @@
 import { useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useRef, useState } from "react";
+import { displayUrl } from "../../api/endpoints";
 import type { ImageDetail } from "../../api/types";
 import type { CanvasView } from "../../canvas/view";
 import { ErrorState } from "../../design/states";
 import { dismissToast, toast } from "../../design/toast";
+import { KeyList } from "../../image_view/key_list";
+import { LoadingNotice } from "../../image_view/loading_notice";
+import { type KeyHint, StatusStrip } from "../../image_view/status_strip";
+import { useImageBitmap } from "../../image_view/use_image_bitmap";
+import { useFocusBackAfterClick, useKeys } from "../../image_view/use_keys";
+import { COMMAND_GROUPS, COMMANDS, KEYMAP } from "../../labelling/commands";
 import type { LabelStore } from "../../labelling/label_store";
 import { outbox } from "../../labelling/outbox_start";
 import { Announcer } from "./announcer";
 import { CanvasRegion } from "./canvas_region";
 import { focusJoin } from "./join_list";
-import { KeyList } from "./key_list";
 import { NoCandidates } from "./no_candidates";
-import { LeftHint, LoadingNotice, ReviewBanner } from "./notices";
+import { LeftHint, ReviewBanner } from "./notices";
 import { SidePanel } from "./side_panel";
-import { StatusStrip } from "./status_strip";
 import { useHistory } from "./use_history";
-import { useImageBitmap } from "./use_image_bitmap";
-import { useFocusBackAfterClick, useKeys } from "./use_keys";
 import { HISTORY_TOAST, REJECTED_TOAST, useLabelActions } from "./use_label_actions";
 import { annotationsKey, type LabelSession } from "./use_label_session";
 import { useOverlays } from "./use_overlays";
 import { useFirstSelection, useSegmentAddress } from "./use_segment_address";
 import { useLabelState, useSaveState } from "./use_store";
+
+const HINTS: readonly KeyHint[] = [
+  ["Tab", "next"],
+  ["K", "keep"],
+  ["X", "reject"],
+  ["A", "ambiguous"],
+  ["R", "reject the rest"],
+  ["Enter", "done"],
+];
 
 interface LabelWorkspaceProps {
   slug: string;
@@ -36,7 +48,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
   const panelRef = useRef<HTMLElement | null>(null);
   const [scale, setScale] = useState(1);
   const { shown, control } = useOverlays(image.id);
-  const { bitmap, error: bitmapError, retry } = useImageBitmap(image.id, image);
+  const { bitmap, error: bitmapError, retry } = useImageBitmap(displayUrl(image.id), image);
   const leaveImage = useCallback(() => panelRef.current?.focus(), []);
   const enterImage = useCallback(() => regionRef.current?.focus({ preventScroll: true }), []);
   const stepJoin = useCallback((direction: 1 | -1) => focusJoin(panelRef.current, direction), []);
@@ -52,7 +64,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
     overlays: control,
     whenHistoryKnown,
   });
-  useKeys(actions, regionRef);
+  useKeys(KEYMAP, actions);
   useFocusBackAfterClick(regionRef);
   useFirstSelection(store);
   useSegmentAddress(store);
@@ -71,11 +83,11 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
   const problem = bitmapError ?? session.error;
   const empty = store !== null && store.getState().candidates.length === 0;
   return (
-    <div className="label-page">
+    <div className="image-page">
       <a className="skip-link" href="#label-panel">
         Skip to the review panel
       </a>
-      <div className="label-stage">
+      <div className="image-stage">
         <CanvasRegion
           image={image}
           bitmap={bitmap}
@@ -86,7 +98,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           onScale={setScale}
         />
         {store ? <Announcer store={store} /> : null}
-        <div className="label-notices">
+        <div className="image-notices">
           {problem ? (
             <div className="notice-card">
               <ErrorState error={problem} onRetry={bitmapError ? retry : session.retry} />
@@ -106,8 +118,10 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
             />
           ) : null}
         </div>
-        {shown.keyList ? <KeyList onClose={control.toggleKeyList} /> : null}
-        <StatusStrip scale={scale} actions={actions} />
+        {shown.keyList ? (
+          <KeyList commands={COMMANDS} groups={COMMAND_GROUPS} onClose={control.toggleKeyList} />
+        ) : null}
+        <StatusStrip hints={HINTS} scale={scale} actions={actions} />
       </div>
       {store && scene ? (
         <SidePanel
@@ -123,7 +137,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           panelRef={panelRef}
         />
       ) : (
-        <aside className="label-panel" aria-busy="true" />
+        <aside className="image-panel" aria-busy="true" />
       )}
     </div>
   );

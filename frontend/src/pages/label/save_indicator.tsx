@@ -4,6 +4,7 @@ import { Icon, type IconName } from "../../design/icons";
 import type { SaveState } from "../../labelling/outbox";
 import { outbox } from "../../labelling/outbox_start";
 import { useSaveState } from "./use_store";
+import "./save_indicator.css";
 
 /** Says at any time whether everything decided has reached the server. */
 export function SaveIndicator() {

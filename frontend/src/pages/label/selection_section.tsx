@@ -1,12 +1,13 @@
 import type { RefObject } from "react";
 import type { ImageDetail, SegmentFacts } from "../../api/types";
 import type { Scene } from "../../canvas/scene";
+import { lineStyle, styleName } from "../../canvas/style";
 import type { CanvasView } from "../../canvas/view";
 import { IconButton } from "../../design/button";
 import { formatCount } from "../../design/format";
-import { toast } from "../../design/toast";
+import { copyLink } from "../../image_view/copy_link";
+import { Magnifier } from "../../image_view/magnifier";
 import { isBent, type LabelState, selectedPlace, verdictAt } from "../../labelling/label_state";
-import { Magnifier } from "./magnifier";
 import { StageSection } from "./stage_section";
 import type { PageActions } from "./use_label_actions";
 import { addressOf } from "./use_segment_address";
@@ -43,7 +44,7 @@ export function SelectionSection(props: SelectionSectionProps) {
               icon="copy"
               label="Copy link"
               side="end"
-              onClick={() => copyLink(candidate.id)}
+              onClick={() => copyLink(addressOf(candidate.id), "Link to this candidate copied")}
             />
           )}
         </span>
@@ -57,7 +58,7 @@ export function SelectionSection(props: SelectionSectionProps) {
             scene={scene}
             bitmap={bitmap}
             index={selected}
-            style={verdict === "undecided" && isBent(state, selected) ? "bent" : verdict}
+            colour={lineStyle(styleName(verdict, isBent(state, selected))).colour}
           />
           <Facts candidate={candidate} />
           <StageSection
@@ -99,15 +100,6 @@ function Facts({ candidate }: { candidate: SegmentFacts }) {
       </dl>
     </>
   );
-}
-
-async function copyLink(segmentId: number): Promise<void> {
-  const copied = await navigator.clipboard?.writeText(addressOf(segmentId)).then(
-    () => true,
-    () => false,
-  );
-  const message = copied ? "Link to this candidate copied" : "This browser doesn't let the page copy";
-  toast({ key: "link", message, tone: copied ? "success" : "danger" });
 }
 
 function number(value: number | null): string {

@@ -55,8 +55,8 @@ export function SidePanel({
   }
 
   return (
-    <aside className="label-panel" aria-label="Review" ref={panelRef} tabIndex={-1} id="label-panel">
-      <div className="label-panel__scroll">
+    <aside className="image-panel" aria-label="Review" ref={panelRef} tabIndex={-1} id="label-panel">
+      <div className="image-panel__scroll">
         <ProgressSection state={state} onShown={changeShown} />
         <SelectionSection
           image={image}
@@ -91,7 +91,7 @@ export function SidePanel({
           ready={bitmap !== null}
         />
       </div>
-      <footer className="label-panel__footer">
+      <footer className="image-panel__footer">
         <IconButton
           icon="undo"
           label="Undo"
@@ -111,11 +111,11 @@ export function SidePanel({
           onClick={actions.redo}
         />
         {state.counts.undecided > 0 ? (
-          <Button className="label-panel__wide" onClick={actions.rejectUndecided}>
+          <Button className="image-panel__wide" onClick={actions.rejectUndecided}>
             Reject {formatCount(state.counts.undecided)} left <Keys keys={["R"]} />
           </Button>
         ) : (
-          <Button tone="primary" className="label-panel__wide" onClick={actions.finish}>
+          <Button tone="primary" className="image-panel__wide" onClick={actions.finish}>
             {image.status === "open" ? "Image done" : "Next image"} <Keys keys={["Enter"]} />
           </Button>
         )}

@@ -49,7 +49,7 @@ export function StageLegend({ history }: { history: StageHistory }) {
 
 function Mark({ children }: { children: ReactNode }) {
   return (
-    <svg className="verdict-mark" width="30" height="16" viewBox="0 0 30 16" aria-hidden="true">
+    <svg className="line-mark" width="30" height="16" viewBox="0 0 30 16" aria-hidden="true">
       <rect width="30" height="16" rx="3" fill={STAGES.bed.colour} />
       {children}
     </svg>

@@ -53,7 +53,7 @@ export function StageSection({ open, onToggle, ...details }: StageSectionProps) 
 
 /** Scrolls the panel alone; `scrollIntoView` would move the page too. */
 function scrollToTop(section: HTMLElement | null): void {
-  const panel = section?.closest(".label-panel__scroll");
+  const panel = section?.closest(".image-panel__scroll");
   if (!section || !panel) return;
   panel.scrollTop += section.getBoundingClientRect().top - panel.getBoundingClientRect().top;
 }

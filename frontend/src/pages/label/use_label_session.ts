@@ -5,13 +5,13 @@ import { useEffect, useMemo, useRef } from "react";
 import { displayUrl } from "../../api/endpoints";
 import { imageQuery, keys } from "../../api/queries";
 import type { ImageDetail } from "../../api/types";
+import { imageLoader } from "../../image_view/use_image_bitmap";
 import { type Annotations, loadAnnotations } from "../../labelling/annotations";
 import type { LabelStore } from "../../labelling/label_store";
 import { openLabelStore } from "../../labelling/open_store";
 import { onDecisionsStored, outbox } from "../../labelling/outbox_start";
 import { readPreferences } from "../../labelling/preferences";
 import { stopwatch } from "../../labelling/stopwatch_start";
-import { imageLoader } from "./use_image_bitmap";
 
 const POLL = 1_500;
 

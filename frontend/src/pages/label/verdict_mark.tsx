@@ -1,17 +1,6 @@
 import { lineStyle, type StyleName } from "../../canvas/style";
+import { LineMark } from "../../image_view/line_mark";
 
-/** A short piece of line as it is drawn on the image: the legend is the drawing itself. */
 export function VerdictMark({ name }: { name: StyleName }) {
-  const { colour, width, dash } = lineStyle(name);
-  return (
-    <svg className="verdict-mark" width="30" height="14" viewBox="0 0 30 14" aria-hidden="true">
-      <rect width="30" height="14" rx="3" fill="#2b313b" />
-      <path
-        d="M4 7h22"
-        stroke={colour}
-        strokeWidth={width}
-        strokeDasharray={dash.length > 0 ? dash.join(" ") : undefined}
-      />
-    </svg>
-  );
+  return <LineMark style={lineStyle(name)} />;
 }

@@ -1,0 +1,100 @@
+import { type ReactNode, type RefObject, useLayoutEffect, useRef, useState } from "react";
+import type { Point } from "../canvas/geometry";
+import type { Hit, Scene } from "../canvas/scene";
+import { CanvasView } from "../canvas/view";
+import type { Size, Viewport } from "../canvas/viewport";
+
+/** Where on the canvas the pointer is, and the line under it. */
+export interface PointerPlace {
+  index: number | null;
+  screen: Point;
+}
+
+interface ImageCanvasProps extends Size {
+  /** Another one opens another image. */
+  imageKey: number | string;
+  bitmap: ImageBitmap | null;
+  scene: Scene | null;
+  viewRef: RefObject<CanvasView | null>;
+  regionRef: RefObject<HTMLElement | null>;
+  className?: string;
+  /** Accessible name. */
+  label: string;
+  /** Id of the text that says what is selected. */
+  describedBy: string;
+  onHover: (place: PointerPlace | null) => void;
+  /** Hears of lines at the clicked place, nearest first; `again` where the click before was there too. */
+  onClick: (hits: readonly Hit[], again: boolean) => void;
+  onViewport: (viewport: Viewport) => void;
+  children?: ReactNode;
+}
+
+/**
+ * An image with lines. Everything that moves is drawn by the canvas engine, not by React; what React changes
+ * reaches it before the next frame, so that image and panel never belong to different images.
+ */
+export function ImageCanvas(props: ImageCanvasProps) {
+  const { imageKey, width, height, bitmap, scene, viewRef, regionRef, className, label, children } = props;
+  const imageCanvas = useRef<HTMLCanvasElement>(null);
+  const lineCanvas = useRef<HTMLCanvasElement>(null);
+  const highlightCanvas = useRef<HTMLCanvasElement>(null);
+  const [painted, setPainted] = useState<number | string | null>(null);
+  const opened = useRef(imageKey);
+  const latest = useRef(props);
+  latest.current = props;
+
+  useLayoutEffect(() => {
+    const host = regionRef.current;
+    const canvases = [imageCanvas.current, lineCanvas.current, highlightCanvas.current] as const;
+    const [image, lines, highlights] = canvases;
+    if (host === null || image === null || lines === null || highlights === null) return;
+    const view = new CanvasView(
+      host,
+      { image, lines, highlights },
+      {
+        hover: (index, screen) => latest.current.onHover(screen === null ? null : { index, screen }),
+        click: (hits, again) => latest.current.onClick(hits, again),
+        viewChanged: (viewport) => latest.current.onViewport(viewport),
+        painted: (complete) => setPainted(complete ? opened.current : null),
+      },
+    );
+    viewRef.current = view;
+    return () => {
+      view.dispose();
+      viewRef.current = null;
+    };
+  }, [regionRef, viewRef]);
+
+  useLayoutEffect(() => {
+    opened.current = imageKey;
+    viewRef.current?.open({ width, height });
+  }, [viewRef, imageKey, width, height]);
+
+  // biome-ignore lint/correctness/useExhaustiveDependencies: an opened image starts without pixels
+  useLayoutEffect(() => {
+    viewRef.current?.setImage(bitmap);
+  }, [viewRef, bitmap, imageKey]);
+
+  // biome-ignore lint/correctness/useExhaustiveDependencies: an opened image starts without lines
+  useLayoutEffect(() => {
+    if (scene !== null) viewRef.current?.setScene(scene);
+  }, [viewRef, scene, imageKey]);
+
+  return (
+    <section
+      ref={regionRef}
+      className={className === undefined ? "image-canvas" : `image-canvas ${className}`}
+      role="application"
+      aria-label={label}
+      aria-describedby={props.describedBy}
+      aria-busy={painted !== imageKey}
+      // biome-ignore lint/a11y/noNoninteractiveTabindex: the image is operated by keys, as an application region
+      tabIndex={0}
+    >
+      <canvas ref={imageCanvas} />
+      <canvas ref={lineCanvas} />
+      <canvas ref={highlightCanvas} />
+      {children}
+    </section>
+  );
+}

@@ -1,0 +1,109 @@
+import type { Submission } from "../../api/board_types";
+import { IntervalBar } from "../../charts/interval_bar";
+import { formatDate } from "../../design/format";
+import { EmptyState } from "../../design/states";
+import { intervalText, metricOf, metricText } from "../metrics";
+import { ErrorTypes } from "./error_types_chart";
+import { F1GridTable } from "./f1_grid_table";
+import { currentScores, currentTotals, headline } from "./scores";
+import { readErrorTypes, readStrata } from "./strata";
+import { StrataCharts } from "./strata_charts";
+import { TotalsTable } from "./totals_table";
+
+const HEADLINE = ["f1", "precision", "recall"] as const;
+
+export function Overview({ submission }: { submission: Submission }) {
+  const totals = currentTotals(submission.scores);
+  if (submission.scores.length === 0) {
+    return <EmptyState icon="clock" title="No numbers yet" />;
+  }
+  const strata = readStrata(submission.strata);
+  const errors = readErrorTypes(submission.error_types);
+  return (
+    <>
+      <ul className="headline">
+        {HEADLINE.map((key) => {
+          const measured = totals[key];
+          if (!measured || measured.value === null) return null;
+          return (
+            <li key={key} className="headline__item card">
+              <span className="muted">{metricOf(key).name}</span>
+              <strong className="headline__value numeric">{metricText(key, measured.value)}</strong>
+              <IntervalBar {...measured} value={measured.value} domain={[0, 1]} width={200} />
+              <span className="muted numeric">{intervalText(key, measured)}</span>
+            </li>
+          );
+        })}
+      </ul>
+      {strata.length > 0 || errors.length > 0 ? (
+        <div className="overview-charts">
+          {errors.length > 0 ? <ErrorTypes sides={errors} /> : null}
+          {strata.length > 0 ? <StrataCharts kinds={strata} /> : null}
+        </div>
+      ) : null}
+      <TotalsTable totals={totals} />
+      {submission.f1_grid ? <F1GridTable grid={submission.f1_grid} /> : null}
+      <Provenance submission={submission} />
+    </>
+  );
+}
+
+/** Under what the numbers stand. */
+function Provenance({ submission }: { submission: Submission }) {
+  const { current, older } = currentScores(submission.scores);
+  return (
+    <section className="section card" aria-labelledby="provenance-title">
+      <h2 id="provenance-title">Under what these numbers stand</h2>
+      <div className="table-scroll">
+        <table className="table">
+          <thead>
+            <tr>
+              <th scope="col">Protocol</th>
+              <th scope="col">Version</th>
+              <th scope="col">Scorer</th>
+              <th scope="col">Ground truth</th>
+              <th scope="col" className="table__number">
+                F1
+              </th>
+              <th scope="col" className="table__number">
+                Scored
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            {[...current, ...older].map((score, index) => (
+              <tr
+                key={`${score.protocol} ${score.protocol_version} ${score.split_version}`}
+                className={index >= current.length ? "muted" : undefined}
+              >
+                <th scope="row">
+                  {score.protocol}
+                  {index >= current.length ? " (earlier)" : ""}
+                </th>
+                <td>{score.protocol_version}</td>
+                <td>{score.scorer_version}</td>
+                <td>version {score.split_version}</td>
+                <td className="table__number">{metricText("f1", headline(score)?.value)}</td>
+                <td className="table__number">{score.done_at ? formatDate(score.done_at) : "–"}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+      <dl className="provenance">
+        {submission.truth_hash ? (
+          <div>
+            <dt>Ground truth</dt>
+            <dd className="mono">{submission.truth_hash}</dd>
+          </div>
+        ) : null}
+        {submission.submission_hash ? (
+          <div>
+            <dt>Submission</dt>
+            <dd className="mono">{submission.submission_hash}</dd>
+          </div>
+        ) : null}
+      </dl>
+    </section>
+  );
+}

@@ -1,0 +1,54 @@
+/** What is said of scored lines. */
+
+import { LAYER_NAMES } from "./layers";
+import type { MatchedLine } from "./matched_image";
+
+const ERROR_TYPES: Readonly<Record<string, { name: string; why: string }>> = {
+  duplicate: { name: "duplicate", why: "Another prediction counts for its label already." },
+  fragment: { name: "fragment", why: "It covers too small a part of its label." },
+  "over-extended": { name: "over-extended", why: "It runs on beyond its label, or over several labels." },
+  offset: { name: "offset", why: "It lies beside a label, too far away." },
+  "wrong-angle": { name: "wrong angle", why: "It lies near a label, but turned." },
+  background: { name: "background", why: "Nothing like it was labelled." },
+  missed: { name: "missed", why: "Predictions cover less than half of it." },
+  fragmented: { name: "fragmented", why: "Pieces of it were found, none of them enough alone." },
+};
+
+/** The kind of error in words, and why the line counts as one; null where it isn't an error of a known kind. */
+export function errorText(type: string | null): { name: string; why: string } | null {
+  if (type === null) return null;
+  const key = type.replaceAll("_", "-").replaceAll(" ", "-");
+  return ERROR_TYPES[key] ?? { name: type.replaceAll("_", " "), why: "" };
+}
+
+/** "Prediction 13" or "Label 4": people count from 1. */
+export function lineTitle({ kind, name }: Pick<MatchedLine, "kind" | "name">): string {
+  return `${kind === "label" ? "Label" : "Prediction"} ${Number(name.slice(1)) + 1}`;
+}
+
+export function pixels(value: number | null, digits = 1): string {
+  return value === null ? "–" : `${value.toFixed(digits)} px`;
+}
+
+export function degrees(radians: number | null): string {
+  return radians === null ? "–" : `${((radians * 180) / Math.PI).toFixed(2)}°`;
+}
+
+export function ratio(value: number | null): string {
+  return value === null ? "–" : value.toFixed(2);
+}
+
+/** What a screen reader says of the selected line. */
+export function describeLine(line: MatchedLine | null, place: number | null, errors: number): string {
+  if (line === null) return "No line selected";
+  const parts = [`${LAYER_NAMES[line.layer].one}, ${lineTitle(line).toLowerCase()}`];
+  if (place !== null) parts.push(`error ${place} of ${errors}`);
+  const error = errorText(line.errorType);
+  if (error !== null) parts.push(error.name);
+  parts.push(`${Math.round(line.length)} pixels long`);
+  if (line.liou !== null) parts.push(`L I O U ${line.liou.toFixed(2)}`);
+  if (line.offset !== null) parts.push(`${line.offset.toFixed(1)} pixels beside`);
+  if (line.angle !== null) parts.push(`${((line.angle * 180) / Math.PI).toFixed(1)} degrees off`);
+  if (line.score !== null) parts.push(`score ${line.score.toFixed(2)}`);
+  return parts.join(", ");
+}
