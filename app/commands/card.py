@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -10,10 +11,17 @@ from rich.table import Table
 
 from app.commands.stores import opened_stores
 from app.commands.whole_files import json_bytes, write_whole
+from app.db.models import Image
 from app.evaluation.table_one import TableRow, table_text
+from app.images.decode import decode_gray
+from app.services.baseline_detectors import detect_candidates
 from app.services.card_tables import CardTables, table_content
 from app.services.cards import Card, card_figure, dataset_card
 from app.settings import Settings
+from app.storage import BlobStore
+from app.vision.segments import Segments
+
+Progress = Callable[[str], None]
 
 NAMELESS = "(no source)"
 
@@ -27,15 +35,32 @@ class WrittenCard:
     files: tuple[Path, ...]
 
 
-def dataset_card_files(settings: Settings, slug: str, output: Path | None = None) -> WrittenCard:
+def dataset_card_files(
+    settings: Settings,
+    slug: str,
+    output: Path | None = None,
+    *,
+    detect: bool = False,
+    min_length: float = 0.0,
+    progress: Progress | None = None,
+) -> WrittenCard:
     """Return a dataset's card; with ``output`` write ``card.json`` and, where there are labels, ``card.png`` there.
+
+    Args:
+        settings: Say where the database and the blobs are.
+        slug: Of the dataset.
+        output: Folder of the files.
+        detect: Whether to run the pipeline on labelled images that it hasn't been run on, for the table.
+        min_length: Labels of less arc length, px, are ignored in the table.
+        progress: Called with the name of each image that it is run on.
 
     Raises:
         NotFound: When there is no such dataset.
         OSError: When the folder can't be written to.
     """
     with opened_stores(settings) as (database, blobs):
-        table = CardTables(database).table_of(slug)
+        find = _detector(blobs, settings.max_image_pixels, progress) if detect else None
+        table = CardTables(database, find, min_length=min_length).table_of(slug)
         with database.read() as session:
             card = dataset_card(session, slug)
             picture = None
@@ -52,6 +77,15 @@ def dataset_card_files(settings: Settings, slug: str, output: Path | None = None
     return WrittenCard(card, table, tuple(files))
 
 
+def _detector(blobs: BlobStore, max_pixels: int, progress: Progress | None) -> Callable[[Image], Segments]:
+    def find(image: Image) -> Segments:
+        if progress is not None:
+            progress(image.name)
+        return detect_candidates(decode_gray(blobs.read(image.sha256), max_pixels=max_pixels), 0.0)
+
+    return find
+
+
 def print_card(written: WrittenCard, console: Console) -> None:
     """Tell what the card says: the dataset's own words, its images by source, and the table of its candidates."""
     card = written.card
@@ -63,6 +97,8 @@ def print_card(written: WrittenCard, console: Console) -> None:
     if written.table:
         console.print("Candidates against labels (precision, recall and F1 under official-v1):")
         console.print(table_text(written.table, NAMELESS), markup=False, end="")
+    elif card.labelled:
+        console.print("No candidates to compare with the labels: pre-label the images, or ask for --detect.")
     if written.files:
         console.print(f"the card is in {', '.join(str(path) for path in written.files)}", markup=False)
 

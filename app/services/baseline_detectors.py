@@ -4,44 +4,11 @@ from __future__ import annotations
 
 import cv2
 import numpy as np
-from sqlalchemy import select
-from sqlalchemy.orm import Session
 
-from app.db.models import Image, RunImage, Segment, SplitImage
-from app.services.labels import POINT
 from app.vision.intensity import to_eight_bit
 from app.vision.parameters import DetectionParameters
 from app.vision.prelabel import detect_for_prelabel
 from app.vision.segments import Segments
-
-
-def stored_candidates(session: Session, image: SplitImage) -> Segments | None:
-    """Return all candidates that the pipeline found in an image, whatever was decided on them.
-
-    Args:
-        session: Any session.
-        image: Of a split.
-
-    Returns:
-        ``None`` when they aren't all in the database: without a run, when the run dropped some, or when some were left
-        out because an imported or hand-drawn segment was there already.
-    """
-    row = session.execute(
-        select(RunImage)
-        .join(Image, Image.current_run_image_id == RunImage.id)
-        .where(Image.id == image.image_id, Image.sha256 == image.image_sha256, RunImage.status == "done")
-    ).scalar_one_or_none()
-    left_out = 0 if row is None else sum((row.changes or {}).get(name, 0) for name in ("already_there", "discarded"))
-    if row is None or left_out:
-        return None
-    found = session.execute(
-        select(Segment.points, Segment.score).where(Segment.run_image_id == row.id).order_by(Segment.ordinal)
-    ).all()
-    if not found:
-        return Segments.empty()
-    points = [np.frombuffer(each.points, POINT).reshape(-1, 2) for each in found]
-    scores = None if any(each.score is None for each in found) else [each.score for each in found]
-    return Segments.from_list(points, scores)
 
 
 def detect_candidates(gray: np.ndarray, min_length: float) -> Segments:

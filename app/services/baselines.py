@@ -11,14 +11,15 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from app import __version__
-from app.db.models import Method, SplitImage, SplitVersion, Submission
+from app.db.models import Image, Method, SplitImage, SplitVersion, Submission
 from app.db.session import Database
 from app.formats.submission_files import SubmissionContent, canonical_form, content_hash
 from app.images.decode import decode_gray
-from app.services.baseline_detectors import detect_candidates, detect_lsd, stored_candidates
+from app.services.baseline_detectors import detect_candidates, detect_lsd
 from app.services.blobs import add_blob_row
 from app.services.slugs import free_slug, slug_of
 from app.services.splits import current_version, get_split
+from app.services.stored_candidates import stored_candidates
 from app.services.submission_log import add_to_log
 from app.services.submission_states import add_score
 from app.services.truths import MEDIA_TYPE
@@ -98,7 +99,9 @@ def add_baselines(
     found: dict[str, dict[str, Segments]] = {baseline.name: {} for baseline in BASELINES}
     for place, image in enumerate(images):
         with database.read() as session:
-            candidates = stored_candidates(session, image)
+            held = session.get(Image, image.image_id) if image.image_id is not None else None
+            unchanged = held is not None and held.sha256 == image.image_sha256
+            candidates = stored_candidates(session, held) if held is not None and unchanged else None
         gray = decode_gray(blobs.read(image.image_sha256), max_pixels=max_pixels)
         stored = detect_candidates(gray, split.min_length) if candidates is None else candidates
         found[PIPELINE.name][image.name] = stored

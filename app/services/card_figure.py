@@ -16,14 +16,14 @@ KEPT = Stroke((90, 215, 60), Pattern.SOLID)
 WHITE = 255
 
 
-def draw_panels(image: NDArray[np.uint8], candidates: Segments, kept: Segments) -> NDArray[np.uint8]:
+def draw_panels(image: NDArray[np.uint8], candidates: Segments | None, kept: Segments) -> NDArray[np.uint8]:
     """Draw image, candidates and kept segments at full resolution, with a legend below.
 
     Wide images stand below each other, others side by side.
 
     Args:
         image: uint8 ``(H, W)`` or BGR ``(H, W, 3)``.
-        candidates: What the pipeline proposed, px.
+        candidates: What the pipeline proposed, px; ``None`` leaves their panel out.
         kept: What a person kept, px.
 
     Returns:
@@ -32,12 +32,16 @@ def draw_panels(image: NDArray[np.uint8], candidates: Segments, kept: Segments) 
     plain = cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) if image.ndim == 2 else image
     height, width = plain.shape[:2]
     unit = line_width(width, height)
-    panels = [np.ascontiguousarray(plain, np.uint8).copy() for _ in range(3)]
-    draw_stroke(panels[1], list(candidates), CANDIDATES, unit)
-    draw_stroke(panels[2], list(kept), KEPT, unit)
+    parts = [(CANDIDATES, "candidates", candidates), (KEPT, "kept", kept)]
+    shown = [(stroke, word, segments) for stroke, word, segments in parts if segments is not None]
+    panels = [np.ascontiguousarray(plain, np.uint8)]
+    for stroke, _, segments in shown:
+        panels.append(panels[0].copy())
+        draw_stroke(panels[-1], list(segments), stroke, unit)
     joined = _joined(panels, round(4 * unit), axis=0 if width > 2 * height else 1)
-    entries = [Entry(CANDIDATES, f"{len(candidates)} candidates"), Entry(KEPT, f"{len(kept)} kept")]
-    band = legend_band(entries, "image, candidates, kept", joined.shape[1], unit)
+    entries = [Entry(stroke, f"{len(segments)} {word}") for stroke, word, segments in shown]
+    caption = ", ".join(["image", *(word for _, word, _ in shown)])
+    band = legend_band(entries, caption, joined.shape[1], unit)
     missing = band.shape[1] - joined.shape[1]
     return np.concatenate([np.pad(joined, ((0, 0), (0, missing), (0, 0)), constant_values=WHITE), band])
 
@@ -46,4 +50,4 @@ def _joined(panels: list[NDArray[np.uint8]], gap: int, *, axis: int) -> NDArray[
     shape = list(panels[0].shape)
     shape[axis] = gap
     between = np.full(shape, WHITE, np.uint8)
-    return np.concatenate([panels[0], between, panels[1], between, panels[2]], axis=axis)
+    return np.concatenate([part for panel in panels for part in (between, panel)][1:], axis=axis)

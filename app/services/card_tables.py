@@ -12,8 +12,9 @@ from typing import Any
 from app.db.session import Database
 from app.evaluation.ground_truth import ground_truth
 from app.evaluation.table_one import TableRow, table_one
-from app.services.cards import LabelledContent, labelled_contents, labels_mark
+from app.services.cards import labels_mark
 from app.services.datasets import get_dataset
+from app.services.labelled_contents import Find, LabelledContent, labelled_contents
 
 MOST_TABLES = 16
 """Tables that are remembered; each is a few numbers."""
@@ -24,15 +25,19 @@ class CardTables:
 
     Args:
         database: Where the labels are.
+        find: Detects the candidates of images of which they aren't known; those images are left out without it.
+        min_length: Labels of less arc length, px, are ignored.
     """
 
-    def __init__(self, database: Database) -> None:
+    def __init__(self, database: Database, find: Find | None = None, *, min_length: float = 0.0) -> None:
         self._database = database
+        self._find = find
+        self._min_length = min_length
         self._tables: OrderedDict[str, tuple[TableRow, ...]] = OrderedDict()
         self._lock = Lock()
 
     def table_of(self, slug: str) -> tuple[TableRow, ...]:
-        """Return the table of a dataset; empty while no image is done.
+        """Return the table of a dataset; empty while no image with candidates is done.
 
         Raises:
             NotFound: When there is no such dataset.
@@ -42,8 +47,8 @@ class CardTables:
                 dataset = get_dataset(session, slug)
                 mark = labels_mark(session, dataset)
                 known = self._tables.get(mark)
-                contents = [] if known is not None else labelled_contents(session, dataset)
-            table = _table(contents) if known is None else known
+                contents = [] if known is not None else labelled_contents(session, dataset, self._find)
+            table = _table(contents, self._min_length) if known is None else known
             self._tables[mark] = table
             self._tables.move_to_end(mark)
             while len(self._tables) > MOST_TABLES:
@@ -59,9 +64,10 @@ def table_content(rows: Sequence[TableRow]) -> list[dict[str, Any]]:
     ]
 
 
-def _table(contents: Sequence[LabelledContent]) -> tuple[TableRow, ...]:
-    if not contents:
-        return ()
-    return tuple(
-        table_one((each.source, ground_truth(each.kept, each.ambiguous), each.candidates) for each in contents)
-    )
+def _table(contents: Sequence[LabelledContent], min_length: float) -> tuple[TableRow, ...]:
+    known = [
+        (each.source, ground_truth(each.kept, each.ambiguous, min_length), each.candidates)
+        for each in contents
+        if each.candidates is not None
+    ]
+    return tuple(table_one(known)) if known else ()

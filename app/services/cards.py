@@ -13,17 +13,15 @@ from numpy.typing import NDArray
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Dataset, Decision, Image, Review, Segment
+from app.db.models import Dataset, Decision, Image, Review
 from app.errors import NotFound
 from app.images import decode_display
-from app.services.candidates import current_segments, verdict_of_segment
 from app.services.card_figure import draw_panels
 from app.services.counts import VerdictCounts, verdict_counts
 from app.services.datasets import get_dataset
+from app.services.labelled_contents import images_done, labelled_content
 from app.storage import BlobStore
-from app.vision.segments import Segments
 
-POINT = np.dtype("<f4")
 SIZES_SHOWN = 5
 
 
@@ -64,23 +62,6 @@ class Card:
     labels: int
     verdicts: VerdictCounts
     figure: str | None
-
-
-@dataclass(frozen=True)
-class LabelledContent:
-    """Candidates and labels of one image whose review is done.
-
-    Attributes:
-        candidates: All segments that the pipeline proposed.
-        kept: Kept segments, those that a person added included.
-        ambiguous: Segments of which nobody can say.
-    """
-
-    name: str
-    source: str | None
-    candidates: Segments
-    kept: Segments
-    ambiguous: Segments
 
 
 def dataset_card(session: Session, slug: str) -> Card:
@@ -127,36 +108,21 @@ def labels_mark(session: Session, dataset: Dataset) -> str:
     return hashlib.sha256(repr((dataset.id, decision, [tuple(row) for row in rows])).encode()).hexdigest()
 
 
-def labelled_contents(session: Session, dataset: Dataset) -> list[LabelledContent]:
-    """Return candidates and labels of the images whose review is done, by name."""
-    images = session.scalars(
-        select(Image)
-        .join(Review, Review.image_id == Image.id)
-        .where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None), Review.status == "done")
-        .order_by(Image.name)
-    ).all()
-    return [_content(session, image) for image in images]
-
-
 def card_figure(session: Session, blobs: BlobStore, slug: str, *, max_pixels: int) -> bytes:
     """Return the card's figure as a PNG: an image, its candidates, what was kept of them.
 
-    The image is the one with the median number of kept segments among those whose review is done.
+    The image is the one with the median number of kept segments among those whose review is done. Where its candidates
+    aren't known, their panel is left out.
 
     Raises:
         NotFound: When there is no such dataset, or nothing is labelled.
     """
     dataset = get_dataset(session, slug)
-    images = session.scalars(
-        select(Image)
-        .join(Review, Review.image_id == Image.id)
-        .where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None), Review.status == "done", Image.n_keep > 0)
-        .order_by(Image.n_keep, Image.name)
-    ).all()
+    images = session.scalars(images_done(dataset).where(Image.n_keep > 0).order_by(Image.n_keep, Image.name)).all()
     if not images:
         raise NotFound("no image of the dataset is labelled", where=slug, hint="finish the review of one")
     image = images[len(images) // 2]
-    content = _content(session, image)
+    content = labelled_content(session, image)
     pixels = decode_display(blobs.read(image.sha256), max_pixels=max_pixels)
     return _png(draw_panels(pixels, content.candidates, content.kept))
 
@@ -175,31 +141,6 @@ def _source(name: str | None, images: Sequence[tuple[Image, str]]) -> CardSource
         sequences=len({image.sequence for image, _ in images if image.sequence}),
         cameras=len({image.camera_id for image, _ in images}),
         sizes=tuple(size for size, _ in sizes.most_common(SIZES_SHOWN)),
-    )
-
-
-def _content(session: Session, image: Image) -> LabelledContent:
-    rows = session.execute(
-        current_segments(Segment.points, Segment.origin, verdict_of_segment().label("verdict")).where(
-            Segment.image_id == image.id
-        )
-    ).all()
-
-    def chosen(wanted: Sequence[bool]) -> Segments:
-        return Segments.from_list(
-            [
-                np.frombuffer(row.points, POINT).reshape(-1, 2)
-                for row, is_wanted in zip(rows, wanted, strict=True)
-                if is_wanted
-            ]
-        )
-
-    return LabelledContent(
-        image.name,
-        image.source,
-        candidates=chosen([row.origin != "manual" for row in rows]),
-        kept=chosen([row.verdict == "keep" for row in rows]),
-        ambiguous=chosen([row.verdict == "ambiguous" for row in rows]),
     )
 
 

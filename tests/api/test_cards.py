@@ -22,7 +22,7 @@ def test_a_card_tells_images_sources_and_how_the_candidates_did(
             "images/city/one.png": picture(1),
             "labels/city/one.json": json.dumps({"segments": [line, other]}).encode(),
             "images/land/two.png": picture(2),
-            "labels/land/two.json": json.dumps({"segments": [line]}).encode(),
+            "labels/land/two.json": json.dumps({"segments": [line, {**other, "points": [[30, 9], [30, 99]]}]}).encode(),
             "images/land/three.png": picture(3),
         },
     )
@@ -37,8 +37,8 @@ def test_a_card_tells_images_sources_and_how_the_candidates_did(
     ]
     city, land, everything = card["table_one"]
     assert (city["source"], city["precision"], city["recall"], city["f1_v2"]) == ("city", 0.5, 1.0, 2 / 3)
-    assert (land["precision"], land["f1"]) == (1.0, 1.0)
-    assert (everything["source"], everything["images"], everything["precision"]) == ("all", 2, 0.75)
+    assert (land["precision"], land["f1"]) == (0.5, 2 / 3)
+    assert (everything["source"], everything["images"], everything["precision"]) == ("all", 2, 0.5)
     pixels = cv2.imdecode(np.frombuffer(client.get(card["figure"]).content, np.uint8), cv2.IMREAD_COLOR)
     assert pixels is not None
     assert pixels.shape[1] > 3 * 200
@@ -55,13 +55,26 @@ def test_the_table_follows_the_labels(
     card = client.get("/api/datasets/street/card").json()
     assert (card["table_one"], card["figure"], card["labelled"]) == ([], None, 0)
     assert client.get("/api/datasets/street/card.png").status_code == 404
-    labels = json.dumps({"segments": [{"points": [[10, 20], [110, 20]]}]}).encode()
+    kept, rejected = {"points": [[10, 20], [110, 20]]}, {"points": [[10, 90], [110, 90]], "verdict": "reject"}
+    labels = json.dumps({"segments": [kept, rejected]}).encode()
     upload("street", {"images/two.png": picture(2), "labels/two.json": labels})
     (row,) = client.get("/api/datasets/street/card").json()["table_one"]
     assert (row["source"], row["images"]) == (None, 1)
     found = client.get("/api/datasets/street/images?status=done").json()["items"]
     client.patch(f"/api/images/{found[0]['id']}", json={"source": "city"})
     assert client.get("/api/datasets/street/card").json()["table_one"] == [{**row, "source": "city"}]
+
+
+def test_labels_alone_are_no_candidates(
+    client: TestClient, upload: Callable[..., dict[str, Any]], picture: Callable[[int], bytes]
+) -> None:
+    labels = json.dumps({"segments": [{"points": [[10, 20], [110, 20]]}]}).encode()
+    upload("street", {"images/one.png": picture(1), "labels/one.json": labels})
+    card = client.get("/api/datasets/street/card").json()
+    assert (card["labelled"], card["labels"], card["table_one"]) == (1, 1, [])
+    pixels = cv2.imdecode(np.frombuffer(client.get(card["figure"]).content, np.uint8), cv2.IMREAD_COLOR)
+    assert pixels is not None
+    assert 2 * 200 < pixels.shape[1] < 3 * 200
 
 
 def test_texts_are_cleared_and_the_name_stays(client: TestClient) -> None:

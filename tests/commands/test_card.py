@@ -34,5 +34,17 @@ def test_a_card_is_told_and_written(clearlines: Run, street: Path, tmp_path: Pat
     assert "2 images" in clearlines("card", "street").stdout
 
 
+def test_the_pipeline_is_run_where_it_hasn_t_been(clearlines: Run, tmp_path: Path) -> None:
+    clearlines("synthesize", "--count", 1, "--seed", 3, "--output", tmp_path / "set")
+    clearlines("import", tmp_path / "set", "--dataset", "Street")
+    assert "No candidates to compare" in clearlines("card", "street").stdout
+    source, images, precision, recall, *_ = (
+        clearlines("card", "street", "--detect", "--min-length", 100).stdout.splitlines()[-1].split()
+    )
+    assert (source, images) == ("synthetic", "1")
+    assert float(precision) > 0.4
+    assert float(recall) > 0.7
+
+
 def test_a_dataset_that_isn_t_there(clearlines: Run) -> None:
     assert "there is no dataset nowhere" in clearlines("card", "nowhere", status=2).stderr

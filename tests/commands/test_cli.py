@@ -15,7 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-COMMANDS = ("demo", "serve", "prelabel", "evaluate", "synthesize", "import", "export", "card", "token")
+COMMANDS = (
+    *("demo", "serve", "prelabel", "evaluate", "synthesize", "import", "export"),
+    *("submit", "baseline", "card", "token"),
+)
 
 
 def test_help_names_every_command(clearlines: Any) -> None:
