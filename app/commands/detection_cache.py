@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app import __version__
 from app.commands.whole_files import json_bytes, write_whole
 from app.errors import ClearLinesError
 from app.formats.labelled import LabelledSegments
 from app.formats.npz import read_npz, write_npz
 from app.jobs.tasks import DetectionResult
+from app.vision.code_version import code_version
 from app.vision.segments import Segments
 
 FOLDER = ".prelabel"
@@ -35,7 +35,7 @@ class DetectionCache:
 
     def key(self, content: bytes) -> str:
         """Return the name under which the detection of an image file's bytes is kept."""
-        settings = json.dumps([__version__, dict(self.parameters)], sort_keys=True).encode()
+        settings = json.dumps([code_version(), dict(self.parameters)], sort_keys=True).encode()
         return hashlib.sha256(hashlib.sha256(settings).digest() + hashlib.sha256(content).digest()).hexdigest()
 
     def put(self, key: str, result: DetectionResult) -> None:

@@ -73,7 +73,7 @@ class Histories:
             raise Unavailable(
                 "the process that looked into it was killed",
                 where=found.image_name,
-                hint="most often memory ran out: a large image needs some 30 bytes per pixel",
+                hint="most often memory ran out: a large image needs some 25 bytes per pixel",
             ) from None
         return tell(found, image.by_points.get(fingerprint(found.points)), image.typical)
 
@@ -86,12 +86,16 @@ class Histories:
     def _begin(self, found: Found) -> Future[ImageHistory]:
         key = (found.sha256, json.dumps(found.parameters, sort_keys=True))
         with self._lock:
-            known = self._latest.get(key)
-            if known is not None and not _failed(known):
-                self._latest.move_to_end(key)
+            known = self._known(key)
+            if known is not None:
+                return known
+            self._make_room()  # who is refused reads nothing
+        content = self._blobs.read(found.sha256)  # which may take long, and others ask for what is known
+        with self._lock:
+            known = self._known(key)
+            if known is not None:
                 return known
             self._make_room()
-            content = self._blobs.read(found.sha256)
             arguments = (self._task, content, found.image_name, found.parameters)
             try:
                 future = self._worker().submit(*arguments, max_pixels=self._max_pixels)
@@ -100,6 +104,13 @@ class Histories:
                 future = self._worker().submit(*arguments, max_pixels=self._max_pixels)
             self._latest[key] = future
             return future
+
+    def _known(self, key: tuple[str, str]) -> Future[ImageHistory] | None:
+        known = self._latest.get(key)
+        if known is None or _failed(known):
+            return None
+        self._latest.move_to_end(key)
+        return known
 
     def _make_room(self) -> None:
         for key, future in list(self._latest.items()):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from app.jobs.flight import Flight
 from app.jobs.scoring_work import ScoreWork, TotalWork, ValidateWork
 from app.jobs.work import Work
-from app.services.scoring_queue import InHand, PartClaim, ScoringClaim, ValidationClaim
+from app.services.scoring_claims import InHand, PartClaim, ScoringClaim, ValidationClaim
 
 SUBMISSION_WORK = (ValidateWork, ScoreWork, TotalWork)
 

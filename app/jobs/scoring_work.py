@@ -19,15 +19,10 @@ from app.jobs.stores import Stores
 from app.jobs.work import Tasks, Work
 from app.services.blobs import add_blob_row
 from app.services.score_storing import store_images, store_totals
+from app.services.scoring_attempts import charge_submission, put_submission_back
+from app.services.scoring_claims import PartClaim, TotalsClaim, ValidationClaim
 from app.services.scoring_inputs import images_to_score, recorded_images
-from app.services.scoring_queue import (
-    PartClaim,
-    TotalsClaim,
-    ValidationClaim,
-    charge_submission,
-    expected_images,
-    put_submission_back,
-)
+from app.services.split_images import expected_images
 from app.services.submission_states import ValidContent, accept, fail_or_retry, refuse
 from app.services.truths import MEDIA_TYPE
 

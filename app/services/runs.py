@@ -9,7 +9,6 @@ from typing import Any
 from sqlalchemy import ColumnElement, Select, delete, exists, insert, literal, select, update
 from sqlalchemy.orm import Session, aliased
 
-from app import __version__
 from app.db.models import CameraEstimate, Dataset, Image, Run, RunImage
 from app.errors import Conflict, NotFound
 from app.services.batches import in_batches
@@ -19,6 +18,7 @@ from app.services.events import record_event
 from app.services.run_parameters import RunParameters
 from app.services.run_queue import UNFINISHED
 from app.services.run_scope import refuse_busy_images, wanted_images
+from app.vision.code_version import code_version
 
 
 def start_run(
@@ -43,13 +43,14 @@ def start_run(
     Raises:
         InvalidInput: On parameters that can't be, or ids that are no images of the dataset.
         Conflict: When there are no images, or another run is at work on some of them.
+        BrokenInstallation: When the detector isn't there.
     """
     chosen = RunParameters.from_dict(parameters)
     session.refresh(dataset, with_for_update=True)  # of two that start at once, the second sees the first one's run
     wanted = wanted_images(session, dataset, image_ids)
     refuse_busy_images(session, dataset, set(wanted))
     run = Run(
-        dataset_id=dataset.id, parameters=chosen.as_dict(), code_version=__version__, status="queued", created_at=now
+        dataset_id=dataset.id, parameters=chosen.as_dict(), code_version=code_version(), status="queued", created_at=now
     )
     session.add(run)
     session.flush()

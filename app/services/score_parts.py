@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from app.vision.scoring import WEIGHTS
+from app.vision.scoring import MEASURED, WEIGHTS
 
 
 @dataclass(frozen=True)
@@ -30,17 +29,6 @@ class ScorePart:
     unit: str
 
 
-# the inverse of each of `app.vision.scoring.FEATURES`
-_MEASURED: dict[str, tuple[str, Callable[[float], float]]] = {
-    "length": ("px", lambda value: 50 * math.exp(value)),
-    "closeness": ("share", math.exp),
-    "edge strength": ("grey levels", math.exp),
-    "roughness": ("px", float),
-    "longest gap": ("px", math.expm1),
-    "contrast": ("grey levels", math.expm1),
-}
-
-
 def score_parts(features: Mapping[str, float], typical: Mapping[str, float]) -> tuple[ScorePart, ...]:
     """Return the parts of a score.
 
@@ -52,5 +40,5 @@ def score_parts(features: Mapping[str, float], typical: Mapping[str, float]) -> 
 
 
 def _part(name: str, value: float, typical: float) -> ScorePart:
-    unit, measured = _MEASURED.get(name, ("", None))
+    unit, measured = MEASURED.get(name, ("", None))
     return ScorePart(name, value, WEIGHTS[name], typical, None if measured is None else measured(value), unit)

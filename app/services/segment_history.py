@@ -41,7 +41,7 @@ class Found:
         image_name: The image's name.
         sha256: Of the image's file.
         run_id: The run that found it.
-        code_version: Version of ClearLines that the run was made by.
+        code_version: Version of ClearLines, and of its kernels, that the run was made by.
         parameters: Of the detection, as ``DetectionParameters.as_dict`` gives them.
         points: float32 little-endian ``(n, 2)`` as stored.
     """

@@ -1,4 +1,4 @@
-"""The images of a frozen version: listed page by page, and found for their pixels; they outlive their dataset."""
+"""The images of a frozen version: listed, and found for their pixels; they outlive their dataset."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Split, SplitImage, SplitVersion
 from app.errors import NotFound
+from app.formats.submission_files import ExpectedImage
 from app.services.paging import Order, Page, checked_limit, page_of
 
 BY_ORDINAL = Order("ordinal", SplitImage.ordinal, SplitImage.id)
@@ -67,6 +68,16 @@ def get_split_image(session: Session, split: Split, split_image_id: int) -> Spli
     if image is None:
         raise NotFound(f"the split {split.name} has no image {split_image_id}")
     return image
+
+
+def expected_images(session: Session, version_id: int) -> list[ExpectedImage]:
+    """Return names and sizes of the images of a split version, in its order."""
+    rows = session.execute(
+        select(SplitImage.name, SplitImage.width, SplitImage.height)
+        .where(SplitImage.version_id == version_id)
+        .order_by(SplitImage.ordinal)
+    )
+    return [ExpectedImage(row.name, row.width, row.height) for row in rows]
 
 
 def entry(split: Split, image: SplitImage) -> SplitImageEntry:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy import and_, func, or_, select
+from sqlalchemy import and_, exists, func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Method, Split, SplitVersion, Submission
+from app.db.models import Method, Score, Split, SplitVersion, Submission
 from app.db.session import Database
 from app.errors import ClearLinesError, Conflict, TooMany
 from app.formats.submission_limits import SubmissionLimits
@@ -139,12 +139,11 @@ def refused_error(error: dict[str, Any]) -> InvalidSubmission:
 def used_today(session: Session, split: Split, person: str | None, now: datetime) -> int:
     """Return how many submissions of the last day count for a person; failed and invalid ones don't.
 
-    A withdrawn one counts once it was scored: its author has seen the numbers.
+    A withdrawn one counts however far it got, unless it failed before: it can be restored, and is scored then.
     """
-    counts = or_(
-        Submission.status.in_(("received", "validating", "queued", "scoring", "scored")),
-        and_(Submission.status == "withdrawn", Submission.scored_at.is_not(None)),
-    )
+    given_up = exists().where(Score.submission_id == Submission.id, Score.status == "failed")
+    failed_before = and_(Submission.status == "withdrawn", Submission.scored_at.is_(None), given_up)
+    counts = and_(Submission.status.not_in(("failed", "invalid")), ~failed_before)
     mine = Submission.person.is_(None) if person is None else Submission.person == person
     query = (
         select(func.count())

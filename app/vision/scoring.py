@@ -5,6 +5,7 @@ The logistic of a weighted sum of features.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -29,6 +30,16 @@ FEATURES: dict[str, Feature] = {
     "contrast": lambda found: np.log1p(np.abs(found["contrast"].astype(np.float64))),
 }
 """Features by name, each of findings `app.vision.native.records.FINDING` ``(S,)``, float64 ``(S,)``."""
+
+MEASURED: dict[str, tuple[str, Callable[[float], float]]] = {
+    "length": ("px", lambda value: 50 * math.exp(value)),
+    "closeness": ("share", math.exp),
+    "edge strength": ("grey levels", math.exp),
+    "roughness": ("px", float),
+    "longest gap": ("px", math.expm1),
+    "contrast": ("grey levels", math.expm1),
+}
+"""The inverse of each of `FEATURES`: its unit, and what was measured where the feature has a value."""
 
 # logistic regression on 51 photos of buildings and rooms with 2,502 marked lines, each feature checked by
 # cross-validation over the photos; a score is the share of such candidates that a person had marked there

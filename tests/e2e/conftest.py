@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import urllib.request
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
@@ -27,6 +29,13 @@ class RunningServer:
     address: str
     data: Path
     process: subprocess.Popen[bytes]
+
+    def ask(self, path: str, body: object = None) -> Any:
+        """Return what the API answers to GET, or to POST where there is a body."""
+        content = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(f"{self.address}/api{path}", content, {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return json.load(answer)
 
     def kill(self) -> None:
         """Kill it as a crash would."""

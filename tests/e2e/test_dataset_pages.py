@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import re
-import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -30,11 +28,6 @@ def server(tmp_path_factory: pytest.TempPathFactory, start_server: Callable[...,
     server = start_server(tmp_path_factory.mktemp("pages") / "data")
     yield server
     server.stop()
-
-
-def get(server: Any, path: str) -> Any:
-    with urllib.request.urlopen(f"{server.address}/api{path}", timeout=30) as answer:
-        return json.load(answer)
 
 
 def wait_for(page: Page, condition: Callable[[], bool]) -> None:
@@ -76,7 +69,7 @@ def test_a_newcomer_gets_from_nothing_to_candidates(page: Page, server: Any, tmp
     page.get_by_role("button", name="Pre-label 2 images").click()
     expect(tiles(page).first).to_have_accessible_name(re.compile(r"\b[1-9]\d* candidate"), timeout=60_000)
     expect(page.get_by_text("0 of 2 done")).to_be_visible()
-    run = get(server, "/datasets/downtown/runs")[0]
+    run = server.ask("/datasets/downtown/runs")[0]
     assert run["parameters"]["min_length"] == 50
 
     page.keyboard.press("l")
@@ -91,10 +84,10 @@ def test_what_is_deleted_comes_back_by_undo(page: Page, server: Any) -> None:
     page.get_by_role("button", name="More for Mistake").click()
     page.get_by_role("button", name="Delete").click()
     expect(page.get_by_role("heading", name="Mistake")).to_have_count(0)
-    assert "mistake" not in [dataset["slug"] for dataset in get(server, "/datasets")]
+    assert "mistake" not in [dataset["slug"] for dataset in server.ask("/datasets")]
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_role("heading", name="Mistake")).to_be_visible()
-    assert "mistake" in [dataset["slug"] for dataset in get(server, "/datasets")]
+    assert "mistake" in [dataset["slug"] for dataset in server.ask("/datasets")]
 
 
 def test_filters_live_in_the_address(page: Page, server: Any, tmp_path: Path) -> None:
@@ -118,7 +111,7 @@ def test_many_images_are_changed_and_deleted_at_once(page: Page, server: Any, tm
     page.get_by_role("button", name="Sequence").click()
     page.get_by_label("Sequence of the selected images").fill("drive 7")
     page.keyboard.press("Enter")
-    wait_for(page, lambda: {i["sequence"] for i in get(server, "/datasets/bulk/images")["items"]} == {"drive 7"})
+    wait_for(page, lambda: {i["sequence"] for i in server.ask("/datasets/bulk/images")["items"]} == {"drive 7"})
     page.get_by_role("button", name="Delete", exact=True).click()
     expect(tiles(page)).to_have_count(0)
     page.get_by_role("button", name="Undo").click()

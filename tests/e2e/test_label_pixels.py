@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
-import urllib.request
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -55,8 +53,7 @@ def server(tmp_path_factory: pytest.TempPathFactory, label_server: Any, import_d
 
 
 def open_image(page: Page, server: Any, name: str) -> None:
-    with urllib.request.urlopen(f"{server.address}/api/datasets/pixels/images", timeout=30) as answer:
-        images = {image["name"]: image["id"] for image in json.load(answer)["items"]}
+    images = {image["name"]: image["id"] for image in server.ask("/datasets/pixels/images")["items"]}
     page.goto(f"{server.address}/datasets/pixels/images/{images[name]}")
     page.locator("[role=application][aria-busy=false]").wait_for()
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import io
-import json
 import re
-import urllib.request
 from collections.abc import Callable
 from typing import Any
 from uuid import uuid4
@@ -27,20 +25,13 @@ COLUMNS = (100, 103, 300, 500)
 IMAGES = ("click", "restore", "hide", "discard", "done", "link", "tabs", "held")
 
 
-def ask(server: Any, path: str, body: object = None) -> Any:
-    data = None if body is None else json.dumps(body).encode()
-    request = urllib.request.Request(f"{server.address}/api{path}", data, {"Content-Type": "application/json"})
-    with urllib.request.urlopen(request, timeout=30) as answer:
-        return json.load(answer)
-
-
 def decide(server: Any, image: int, segments: list[int], verdict: str) -> None:
     group = str(uuid4())
     decisions = [
         {"client_id": str(uuid4()), "group_id": group, "segment_id": segment, "verdict": verdict}
         for segment in segments
     ]
-    ask(server, f"/images/{image}/decisions", {"decisions": decisions})
+    server.ask(f"/images/{image}/decisions", {"decisions": decisions})
 
 
 @pytest.fixture(scope="module")
@@ -60,9 +51,9 @@ def images(
     whole = cv2.imencode(".png", noise)[1].tobytes()
     (folder / "images" / "zz_broken.png").write_bytes(whole[: len(whole) // 2])
     import_dataset(label_server, folder, "review")
-    found = {image["name"]: image["id"] for image in ask(label_server, "/datasets/review/images")["items"]}
+    found = {image["name"]: image["id"] for image in label_server.ask("/datasets/review/images")["items"]}
     for name in IMAGES:
-        ids = [segment["id"] for segment in ask(label_server, f"/images/{found[name]}/segments")["segments"]]
+        ids = [segment["id"] for segment in label_server.ask(f"/images/{found[name]}/segments")["segments"]]
         decide(label_server, found[name], ids, "undecided")
     return found
 
@@ -182,12 +173,12 @@ def test_an_image_is_discarded_with_a_reason_and_reopened(
     page.keyboard.type("lines are missing, kerb too")
     page.keyboard.press("Enter")
     expect(page.get_by_text("Discarded.")).to_be_visible()
-    detail = ask(label_server, f"/images/{image}")
+    detail = label_server.ask(f"/images/{image}")
     assert (detail["status"], detail["reason"]) == ("discarded", "lines are missing, kerb too")
     assert detail["verdicts"]["undecided"] == 4
     page.get_by_label("Review").get_by_role("button", name="Reopen").click()
     expect(page.get_by_text("Discarded.")).to_be_hidden()
-    assert ask(label_server, f"/images/{image}")["status"] == "open"
+    assert label_server.ask(f"/images/{image}")["status"] == "open"
     page.keyboard.press("d")
     page.keyboard.press("Escape")
     expect(page.get_by_role("button", name="Blurred")).to_be_hidden()
@@ -201,20 +192,20 @@ def test_a_done_image_is_open_again_once_a_verdict_is_taken_back(
     page.keyboard.press("r")
     page.keyboard.press("Enter")
     page.wait_for_url(lambda address: not address.split("?")[0].endswith(f"/{image}"))
-    assert ask(label_server, f"/images/{image}")["status"] == "done"
+    assert label_server.ask(f"/images/{image}")["status"] == "done"
     page.go_back()
     expect(page.get_by_text("Done.")).to_be_visible()
     page.mouse.click(*place(page, 300, 240))
     page.keyboard.press("u")
     expect(page.get_by_text("Done.")).to_be_hidden()
-    assert ask(label_server, f"/images/{image}")["status"] == "open"
+    assert label_server.ask(f"/images/{image}")["status"] == "open"
 
 
 def test_the_address_names_the_selected_candidate_without_filling_the_history(
     page: Page, label_server: Any, images: dict[str, int]
 ) -> None:
     image = images["link"]
-    third = ask(label_server, f"/images/{image}/segments")["segments"][2]["id"]
+    third = label_server.ask(f"/images/{image}/segments")["segments"][2]["id"]
     open_image(page, label_server, image)
     before = page.evaluate("history.length")
     for _ in range(2):
@@ -229,7 +220,7 @@ def test_what_another_tab_decided_shows_when_one_comes_back(
     page: Page, label_server: Any, images: dict[str, int]
 ) -> None:
     image = images["tabs"]
-    ids = [segment["id"] for segment in ask(label_server, f"/images/{image}/segments")["segments"]]
+    ids = [segment["id"] for segment in label_server.ask(f"/images/{image}/segments")["segments"]]
     open_image(page, label_server, image)
     page.keyboard.press("k")
     expect(page.get_by_text("All saved")).to_be_visible()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import urllib.request
 from collections.abc import Callable
 from typing import Any
 
@@ -20,11 +18,6 @@ DECISIONS = "**/api/images/*/decisions"
 IMAGES = ("reload", "memory")
 
 
-def ask(server: Any, path: str) -> Any:
-    with urllib.request.urlopen(f"{server.address}/api{path}", timeout=30) as answer:
-        return json.load(answer)
-
-
 @pytest.fixture(scope="module")
 def images(
     tmp_path_factory: pytest.TempPathFactory, label_server: Any, import_dataset: Callable[..., None]
@@ -38,7 +31,7 @@ def images(
         cv2.imwrite(str(folder / "images" / f"{name}.png"), np.full((300, 400), 90 + number, np.uint8))
         (folder / "labels" / f"{name}_edge_segments_filtered.npy").write_bytes(labels)
     import_dataset(label_server, folder, "saving")
-    return {image["name"]: image["id"] for image in ask(label_server, "/datasets/saving/images")["items"]}
+    return {image["name"]: image["id"] for image in label_server.ask("/datasets/saving/images")["items"]}
 
 
 def open_image(page: Page, server: Any, image: int) -> None:
@@ -67,13 +60,13 @@ def test_a_reload_without_network_keeps_what_was_decided(page: Page, label_serve
     page.reload()
     expect(offline).to_be_visible()
     counts(page).to_have_text(["1", "0", "1", "1"])
-    assert ask(label_server, f"/images/{image}")["verdicts"]["keep"] == 3
+    assert label_server.ask(f"/images/{image}")["verdicts"]["keep"] == 3
     page.keyboard.press("z")
     expect(page.get_by_role("button", name="Offline, 4 kept here")).to_be_visible()
     page.unroute(DECISIONS)
     page.get_by_role("button", name="Offline, 4 kept here").click()
     expect(page.get_by_text("All saved")).to_be_visible()
-    history = ask(label_server, f"/images/{image}/decisions")["decisions"]
+    history = label_server.ask(f"/images/{image}/decisions")["decisions"]
     assert [row["verdict"] for row in history][-4:] == ["reject", "ambiguous", "undecided", "keep"]
     assert history[-1]["kind"] == "undo"
     assert len({row["client_id"] for row in history}) == len(history)
@@ -93,4 +86,4 @@ def test_a_browser_without_storage_says_so_and_saves_all_the_same(
     page.unroute(DECISIONS)
     note.click()
     expect(page.get_by_text("All saved")).to_be_visible()
-    assert ask(label_server, f"/images/{image}")["verdicts"]["reject"] == 1
+    assert label_server.ask(f"/images/{image}")["verdicts"]["reject"] == 1

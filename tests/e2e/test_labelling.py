@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 import re
 import urllib.request
 import zipfile
@@ -35,17 +34,12 @@ def folder(tmp_path: Path) -> Path:
     return folder
 
 
-def get(server: Any, path: str) -> Any:
-    with urllib.request.urlopen(f"{server.address}/api{path}", timeout=30) as answer:
-        return json.load(answer)
-
-
 def wait_for_run(page: Page, server: Any, slug: str) -> list[dict[str, Any]]:
     """Wait until every image of the dataset has candidates; return the images."""
     for _ in range(600):
-        run = get(server, f"/datasets/{slug}")["latest_run"]
+        run = server.ask(f"/datasets/{slug}")["latest_run"]
         if run and run["status"] == "done":
-            return get(server, f"/datasets/{slug}/images")["items"]
+            return server.ask(f"/datasets/{slug}/images")["items"]
         page.wait_for_timeout(100)
     pytest.fail("the run didn't finish")
 
@@ -106,7 +100,7 @@ def check_export(path: Path, server: Any, images: list[dict[str, Any]]) -> None:
     """Every label file holds exactly the kept segments, point by point."""
     with zipfile.ZipFile(path) as archive:
         for image, kept in zip(images, (2, 1), strict=True):
-            segments = get(server, f"/images/{image['id']}/segments")["segments"]
+            segments = server.ask(f"/images/{image['id']}/segments")["segments"]
             points = read_points(server, image["id"])
             expected = [points[segment["id"]] for segment in segments if segment["verdict"] == "keep"]
             assert len(expected) == kept
@@ -147,7 +141,7 @@ def test_decisions_made_while_the_server_is_dead_arrive_once_it_is_back(
 
     again = serve(port=int(server.address.rpartition(":")[2]))
     expect(page.get_by_text("All saved")).to_be_visible(timeout=30_000)
-    history = get(again, f"/images/{image['id']}/decisions")["decisions"]
+    history = again.ask(f"/images/{image['id']}/decisions")["decisions"]
     assert [row["verdict"] for row in history] == ["keep", "reject", "keep"]
     assert len({row["client_id"] for row in history}) == 3
 
@@ -157,13 +151,13 @@ def test_a_click_selects_and_the_address_leads_back_to_the_candidate(
 ) -> None:
     server = serve(str(folder))
     image = wait_for_run(page, server, "street")[0]
-    segments = get(server, f"/images/{image['id']}/segments")["segments"]
+    segments = server.ask(f"/images/{image['id']}/segments")["segments"]
     last = segments[-1]
     page.goto(f"{server.address}/datasets/street/images/{image['id']}?segment={last['id']}")
     expect(page.locator("#label-selection")).to_contain_text("of")
     page.keyboard.press("x")
     expect(page.get_by_text("All saved")).to_be_visible()
-    after = get(server, f"/images/{image['id']}/segments")["segments"]
+    after = server.ask(f"/images/{image['id']}/segments")["segments"]
     assert {segment["id"]: segment["verdict"] for segment in after}[last["id"]] == "reject"
     assert sum(segment["verdict"] != "undecided" for segment in after) == 1
 

@@ -7,7 +7,6 @@ import json
 import re
 import subprocess
 import sys
-import urllib.request
 import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -50,14 +49,6 @@ PERFECT: dict[str, tuple[float, ...]] = dict.fromkeys(IMAGES, COLUMNS)
 WEAK: dict[str, tuple[float, ...]] = {"alley": (100, 200), "bridge": (100, 150, 250), "corner": (100, 200)}
 
 
-def ask(server: Any, path: str, method: str = "GET", body: object = None) -> Any:
-    data = None if body is None else json.dumps(body).encode()
-    headers = {"Content-Type": "application/json"}
-    request = urllib.request.Request(f"{server.address}/api{path}", data, headers, method=method)
-    with urllib.request.urlopen(request, timeout=30) as answer:
-        return json.load(answer)
-
-
 @pytest.fixture(scope="module")
 def server(
     tmp_path_factory: pytest.TempPathFactory,
@@ -75,7 +66,7 @@ def server(
         cv2.imwrite(str(streets / "images" / f"{name}.png"), np.full((HEIGHT, WIDTH), 90 + number, np.uint8))
         (streets / "labels" / f"{name}_edge_segments_filtered.npy").write_bytes(labels)
     import_dataset(server, streets, "streets")
-    ask(server, "/datasets/streets/splits", "POST", {"name": "Old town", "visibility": "open"})
+    server.ask("/datasets/streets/splits", {"name": "Old town", "visibility": "open"})
     yield server
     server.stop()
 
@@ -109,7 +100,7 @@ def board(server: Any, browser: Any) -> Any:
 
 
 def submissions(server: Any) -> dict[str, Any]:
-    found = ask(server, "/splits/old-town/submissions?mine=true")["items"]
+    found = server.ask("/splits/old-town/submissions?mine=true")["items"]
     return {submission["method"]["name"]: submission for submission in found}
 
 
@@ -129,7 +120,7 @@ def test_a_maintainer_freezes_a_split_and_finds_its_empty_board(page: Page, serv
     expect(page.get_by_role("heading", name="Harbour")).to_be_visible()
     expect(page).to_have_url(f"{server.address}/splits/harbour")
     expect(page.get_by_role("heading", name="Nothing scored yet")).to_be_visible()
-    split = ask(server, "/splits/harbour")
+    split = server.ask("/splits/harbour")
     assert (split["version"]["images"], split["min_length"]) == (3, 50)
     page.get_by_role("link", name="Leaderboards").first.click()
     expect(page.get_by_role("link", name="Harbour")).to_be_visible()
@@ -146,7 +137,7 @@ def test_results_are_checked_scored_and_looked_at(page: Page, board: Any) -> Non
 
 
 def test_what_is_wrong_with_files_is_all_said_and_nothing_is_stored(page: Page, server: Any) -> None:
-    before = ask(server, "/splits/old-town/submissions?mine=true")["total"]
+    before = server.ask("/splits/old-town/submissions?mine=true")["total"]
     page.goto(f"{server.address}/splits/old-town/submit")
     points = [[100, 100], [100, "Infinity"]]
     broken = json.dumps({"segments": [{"points": points}]}).encode()
@@ -164,7 +155,7 @@ def test_what_is_wrong_with_files_is_all_said_and_nothing_is_stored(page: Page, 
     expect(wrong).to_contain_text("nowhere.json")
     page.get_by_label("Method").fill("Broken")
     expect(page.get_by_role("button", name=re.compile("^Submit"))).to_be_disabled()
-    assert ask(server, "/splits/old-town/submissions?mine=true")["total"] == before
+    assert server.ask("/splits/old-town/submissions?mine=true")["total"] == before
 
     page.get_by_role("button", name="Choose other files").click()
     choose(page, zipped(PERFECT))
@@ -248,10 +239,10 @@ def test_what_is_withdrawn_comes_back_by_undo(page: Page, board: Any) -> None:
     page.get_by_role("button", name=f"More for Dull, submission {dull}").click()
     page.get_by_role("button", name="Withdraw").click()
     expect(page.get_by_text("Dull withdrawn")).to_be_visible()
-    assert ask(board, f"/submissions/{dull}")["status"] == "withdrawn"
+    assert board.ask(f"/submissions/{dull}")["status"] == "withdrawn"
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_text("The submission is back.")).to_be_visible()
-    assert ask(board, f"/submissions/{dull}")["status"] == "scored"
+    assert board.ask(f"/submissions/{dull}")["status"] == "scored"
 
 
 def test_a_method_is_described_by_its_owner(page: Page, board: Any) -> None:
@@ -271,7 +262,7 @@ def test_a_dataset_has_a_card(page: Page, board: Any) -> None:
     page.get_by_role("textbox", name="Licence").fill("CC BY 4.0")
     page.get_by_role("button", name="Save").click()
     expect(page.get_by_role("region", name="Licence and citation")).to_contain_text("CC BY 4.0")
-    assert ask(board, "/datasets/streets/card")["licence"] == "CC BY 4.0"
+    assert board.ask("/datasets/streets/card")["licence"] == "CC BY 4.0"
 
 
 def test_a_token_signs_in_and_out(page: Page, board: Any) -> None:

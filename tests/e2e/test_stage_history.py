@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-import urllib.request
 from collections.abc import Callable
 from typing import Any
 
@@ -18,11 +17,6 @@ from app.vision.segments import Segments
 
 pytestmark = pytest.mark.xdist_group("label page")
 POSTS = ((130, 134), (240, 245))
-
-
-def get(server: Any, path: str) -> Any:
-    with urllib.request.urlopen(f"{server.address}/api{path}", timeout=30) as answer:
-        return json.load(answer)
 
 
 @pytest.fixture(scope="module")
@@ -43,26 +37,21 @@ def images(
     label = Segments.from_list([np.linspace((20, 180), (380, 180), 90, dtype=np.float32)])
     (folder / "labels" / "labelled_edge_segments_filtered.npy").write_bytes(write_label_npy(label))
     import_dataset(label_server, folder, "Stages")
-    return {image["name"]: image["id"] for image in get(label_server, "/datasets/stages/images")["items"]}
+    return {image["name"]: image["id"] for image in label_server.ask("/datasets/stages/images")["items"]}
 
 
 @pytest.fixture(scope="module")
 def found(label_server: Any, images: dict[str, int]) -> dict[str, Any]:
     """How the upper candidate of the one image was found, once it is pre-labelled."""
-    body = json.dumps({"image_ids": [images["found"]]}).encode()
-    request = urllib.request.Request(
-        f"{label_server.address}/api/datasets/stages/runs", body, {"Content-Type": "application/json"}
-    )
-    with urllib.request.urlopen(request, timeout=30) as answer:
-        run = json.load(answer)["id"]
+    run = label_server.ask("/datasets/stages/runs", {"image_ids": [images["found"]]})["id"]
     deadline = time.monotonic() + 90
-    while (state := get(label_server, f"/runs/{run}"))["status"] != "done":
+    while (state := label_server.ask(f"/runs/{run}"))["status"] != "done":
         assert state["status"] != "failed", state["error"]
         assert time.monotonic() < deadline
         time.sleep(0.1)
-    segments = get(label_server, f"/images/{images['found']}/segments")["segments"]
+    segments = label_server.ask(f"/images/{images['found']}/segments")["segments"]
     upper = min(segments, key=lambda segment: segment["box"][1])
-    return get(label_server, f"/segments/{upper['id']}/history")
+    return label_server.ask(f"/segments/{upper['id']}/history")
 
 
 def open_candidate(page: Page, server: Any, image: int, segment: int) -> None:
@@ -136,7 +125,7 @@ def test_it_stays_open_along_the_candidates(page: Page, label_server: Any, found
 
 def test_a_label_says_that_it_has_no_history(page: Page, label_server: Any, images: dict[str, int]) -> None:
     image = images["labelled"]
-    label = get(label_server, f"/images/{image}/segments")["segments"][0]
+    label = label_server.ask(f"/images/{image}/segments")["segments"][0]
     open_candidate(page, label_server, image, label["id"])
     page.keyboard.press("i")
     expect(page.get_by_text("This segment was imported")).to_be_visible()

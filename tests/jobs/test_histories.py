@@ -9,6 +9,7 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from app.jobs.executor import WorkerPool, make_executor
 from app.jobs.histories import MOST_IMAGES, Histories
 from app.jobs.tasks import ImageHistory, history_task
 from app.services.segment_history import Found, detection_behind
+from app.storage import BlobStore
 
 MAX_PIXELS = 1_000_000
 
@@ -39,6 +41,20 @@ class Counting:
         self.names.append(name)
         assert self.gate.wait(60)
         return history_task(content, name, parameters, **options)
+
+
+class SlowBlobs(BlobStore):
+    """Blobs whose reading may be held up."""
+
+    def __init__(self, root: Path) -> None:
+        super().__init__(root)
+        self.gate, self.reading = threading.Event(), threading.Event()
+        self.gate.set()
+
+    def read(self, sha256: str) -> bytes:
+        self.reading.set()
+        assert self.gate.wait(60)
+        return super().read(sha256)
 
 
 @pytest.fixture
@@ -105,6 +121,25 @@ def test_those_who_ask_at_once_share_one_detection(small_yard, in_thread: Histor
         counting.gate.set()
         assert [answer.result(60).segment_id for answer in answers] == [found.segment_id for found in candidates]
     assert counting.names == ["a"]
+
+
+def test_what_is_known_is_told_while_another_image_is_read(small_yard, counting: Counting) -> None:
+    known, other = one_of_each(prelabelled(small_yard, "a", "b"))
+    blobs = SlowBlobs(small_yard.blobs.root)
+    histories = Histories(blobs, MAX_PIXELS, executors=ThreadPoolExecutor, task=counting)
+    with ThreadPoolExecutor(1) as askers:
+        histories.tell(known)
+        blobs.gate.clear()
+        blobs.reading.clear()
+        answer = askers.submit(histories.tell, other)
+        try:
+            assert blobs.reading.wait(60)
+            assert histories.tell(known).segment_id == known.segment_id
+            assert not answer.done()
+        finally:
+            blobs.gate.set()
+        assert answer.result(60).segment_id == other.segment_id
+    histories.stop()
 
 
 def test_the_oldest_image_is_forgotten(small_yard, in_thread: Histories, counting: Counting) -> None:

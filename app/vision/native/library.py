@@ -1,8 +1,9 @@
-"""Loading of the kernels, and how each is called."""
+"""Loading of the kernels, how each is called, and what tells one build of them from another."""
 
 from __future__ import annotations
 
 import ctypes
+import hashlib
 import os
 import sys
 from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_int32, c_int64, c_void_p
@@ -16,7 +17,7 @@ from app.vision.native.records import Scene
 Report = CFUNCTYPE(c_int32, c_double)
 """Told the share of a call's work that is done, in [0, 1]; anything but 0 cancels it. ``Report()`` is no callback."""
 
-OUT_OF_MEMORY, CANCELLED, NO_ROOM = -1, -2, -3
+OUT_OF_MEMORY, CANCELLED = -1, -2
 
 _SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 _NAMED_BY = "CLEARLINES_KERNELS"
@@ -61,7 +62,7 @@ def kernels() -> ctypes.CDLL:
     Raises:
         BrokenInstallation: The library isn't there, can't be loaded, or is of another version.
     """
-    path = Path(os.environ.get(_NAMED_BY) or Path(__file__).with_name(f"_kernels{_SUFFIX}"))
+    path = _path()
     try:
         library = ctypes.CDLL(str(path))
         for name, (result, arguments) in _SIGNATURES.items():
@@ -69,12 +70,34 @@ def kernels() -> ctypes.CDLL:
             function.restype = result
             function.argtypes = arguments
     except (OSError, AttributeError) as error:
-        raise BrokenInstallation(
-            f"the detector's compiled kernels can't be used: {error}",
-            where=str(path),
-            hint=f"{_NAMED_BY} in the environment names this file; unset it, or name another"
-            if os.environ.get(_NAMED_BY)
-            else "in a copy of the project run: python build_native.py; otherwise install clearlines again",
-        ) from error
+        raise _broken(path, error) from error
     library.cl_keep_heap()
     return library
+
+
+@cache
+def kernels_hash() -> str:
+    """Return the SHA-256 of the kernels' file as 64 hexadecimal digits; the file is read once a process.
+
+    Raises:
+        BrokenInstallation: The file can't be read.
+    """
+    path = _path()
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise _broken(path, error) from error
+
+
+def _path() -> Path:
+    return Path(os.environ.get(_NAMED_BY) or Path(__file__).with_name(f"_kernels{_SUFFIX}"))
+
+
+def _broken(path: Path, error: Exception) -> BrokenInstallation:
+    return BrokenInstallation(
+        f"the detector's compiled kernels can't be used: {error}",
+        where=str(path),
+        hint=f"{_NAMED_BY} in the environment names this file; unset it, or name another"
+        if os.environ.get(_NAMED_BY)
+        else "in a copy of the project run: python build_native.py; otherwise install clearlines again",
+    )

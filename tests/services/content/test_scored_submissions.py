@@ -22,14 +22,17 @@ from app.services.boards import BoardCache, board_csv, board_of
 from app.services.comparisons import compare_submissions
 from app.services.paging import Page
 from app.services.score_storing import store_images, store_totals
+from app.services.scoring_attempts import release_lost_submissions
+from app.services.scoring_claims import InHand, PartClaim, TotalsClaim
 from app.services.scoring_inputs import info_of
-from app.services.scoring_queue import InHand, PartClaim, TotalsClaim, claim_scoring, release_lost_submissions
+from app.services.scoring_queue import claim_scoring
 from app.services.submission_access import get_submission
 from app.services.submission_images import SORTS, ImageEntry, list_image_scores, neighbours, newest_score
 from app.services.submission_lists import list_submissions
 from app.services.submission_receiving import used_today
-from app.services.submission_states import SubmissionClaim, add_score, fail_or_retry
+from app.services.submission_states import SubmissionClaim, add_score, fail_or_retry, open_score
 from app.services.submission_views import submission_view
+from app.services.submissions import restore, withdraw
 from app.storage import BlobStore
 from app.vision.segments import Segments
 
@@ -272,3 +275,24 @@ def test_a_blob_goes_with_its_last_name(yard: Yard, tmp_path: Path) -> None:
         session.get_one(SplitVersion, yard.version).truth_sha256 = kept
         assert [discard_blob(session, blobs, sha256) for sha256 in (kept, free, None)] == [False, True, False]
     assert (blobs.exists(kept), blobs.exists(free)) == (True, False)
+
+
+def test_what_is_withdrawn_before_it_is_scored_is_charged(yard: Yard) -> None:
+    ann = Viewer("ann", "submitter")
+    later = yard.now + timedelta(hours=1)
+    ids = [yard.add("a", [3] * IMAGES, minutes=minute, status="queued") for minute in (1, 2)]
+    with yard.database.write() as session:
+        for submission_id in ids:
+            withdraw(session, ann, submission_id, later)
+    with yard.database.write() as session:  # else both could be restored after two more were handed in
+        split = session.get_one(Split, 1)
+        assert used_today(session, split, "ann", later) == 2
+        first = restore(session, ann, ids[0], later)
+        score = open_score(session, first.id)
+        assert score is not None
+        first.status, score.status = "failed", "failed"
+        session.flush()
+        assert used_today(session, split, "ann", later) == 1
+        withdraw(session, ann, first.id, later)
+        session.flush()
+        assert used_today(session, split, "ann", later) == 1

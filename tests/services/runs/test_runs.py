@@ -15,6 +15,7 @@ from app.services.lens_estimates import finish_settled_runs
 from app.services.run_progress import list_runs, run_images, run_summary
 from app.services.run_queue import Claim, charge_attempt, fail_image, has_queued_images, put_back, release_lost
 from app.services.runs import cancel_run, delete_run, restore_run, retry_run
+from app.vision.code_version import code_version
 from app.vision.segments import Segments
 
 GRACE = timedelta(days=7)
@@ -40,6 +41,7 @@ def test_a_run_is_queued_over_all_images_that_are_not_deleted(bench) -> None:
     assert summary.parameters["min_length"] == 40.0
     assert summary.parameters["operating_point"] == "balanced"
     assert (summary.parameters["camera"], summary.parameters["discard"]) == ("joint", False)
+    assert summary.code_version == code_version()
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,64 @@
+"""The commands that open the tool: ``demo`` and ``serve``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.cli.options import DataDir, NoBrowser, Port, settings_from
+from app.cli.terminal import announce
+from app.commands.paths import require_there
+from app.commands.progress import progress_bar
+
+
+def demo(data: DataDir = None, port: Port = None, no_browser: NoBrowser = False) -> None:
+    """Make a small synthetic street dataset, pre-label it, and open the tool."""
+    from app.commands.address import address_of, listen
+    from app.commands.demo_settings import demo_settings
+
+    settings = demo_settings(settings_from(data_dir=data, port=port))
+    with listen(settings.host, settings.port) as server:
+        from app.commands.demo import prepare_demo
+        from app.commands.demo_board import prepare_board
+        from app.commands.serve import run_server
+
+        with progress_bar("Drawing streets") as report:
+            slug = prepare_demo(settings, progress=report)
+        with progress_bar("Making a leaderboard") as report:
+            prepare_board(settings, progress=report)
+        announce(address_of(server), settings.data_dir)
+        run_server(settings, server, open_at=None if no_browser else f"/datasets/{slug}")
+
+
+def serve(
+    image_dir: Annotated[Path | None, typer.Argument(help="Images to bring in and pre-label.")] = None,
+    data: DataDir = None,
+    host: Annotated[str | None, typer.Option(help="Loopback address to listen on.")] = None,
+    port: Port = None,
+    no_browser: NoBrowser = False,
+) -> None:
+    """Serve the browser tool and the API; with IMAGE_DIR its images come in and are pre-labelled."""
+    from app.commands.address import address_of, listen
+
+    if image_dir is not None:
+        require_there([image_dir])
+    settings = settings_from(data_dir=data, host=host, port=port)
+    with listen(settings.host, settings.port) as server:
+        from app.commands.serve import import_and_prelabel, prepare_data, run_server
+
+        prepare_data(settings)
+        start = "/"
+        if image_dir is not None:
+            with progress_bar("Importing") as report:
+                slug = import_and_prelabel(settings, image_dir, _folder_name(image_dir), progress=report)
+            start = f"/datasets/{slug}"
+        announce(address_of(server) + start, settings.data_dir)
+        run_server(settings, server, open_at=None if no_browser else start)
+
+
+def _folder_name(folder: Path) -> str:
+    """Name a dataset after its folder; one called ``images`` after the folder above."""
+    resolved = folder.resolve()
+    return resolved.parent.name if resolved.name == "images" and resolved.parent.name else resolved.name
