@@ -18,8 +18,10 @@ ROOT = Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "docs" / "pictures"
 PORT = 8799
 ADDRESS = f"http://127.0.0.1:{PORT}"
+SPLIT = "demo-streets"
 WIDE = (1440, 900)
 NARROW = (900, 700)
+LONGEST = 20
 
 
 def get(path: str) -> Any:
@@ -27,10 +29,10 @@ def get(path: str) -> Any:
         return json.load(answer)
 
 
-def wait_for_candidates(slug: str) -> None:
+def wait_for_candidates(server: subprocess.Popen[bytes], slug: str) -> None:
     """Wait until the server answers and the demo's run is done."""
     deadline = time.monotonic() + 300
-    while time.monotonic() < deadline:
+    while time.monotonic() < deadline and server.poll() is None:
         try:
             if get(f"/datasets/{slug}")["latest_run"]["status"] == "done":
                 return
@@ -38,6 +40,15 @@ def wait_for_candidates(slug: str) -> None:
             pass
         time.sleep(0.5)
     raise SystemExit("the demo didn't get ready")
+
+
+def submit_results(images: Path, found: Path, clearlines: Path) -> int:
+    """Hand the pipeline's surer segments in as a method of one's own, and return the submission, scored."""
+    subprocess.run([clearlines, "prelabel", images, "--output", found, "--operating-point", "precise"], check=True)
+    method = ["--method", "My detector", "--label", "v1"]
+    subprocess.run([clearlines, "submit", found, "--server", ADDRESS, "--split", SPLIT, *method], check=True)
+    rows = {row["method"]["name"]: row for row in get(f"/splits/{SPLIT}/board")["rows"]}
+    return rows["My detector"]["submission_id"]
 
 
 def open_page(browser: Browser, path: str, *, size: tuple[int, int] = WIDE, dark: bool = False) -> Page:
@@ -65,6 +76,7 @@ def take_all(browser: Browser, slug: str) -> None:
         page.keyboard.press(key)
     page.keyboard.press("Escape")
     take(page, "label")
+    take_history(browser, f"{label}/{images[1]['id']}", images[1]["id"])
     page = open_page(browser, f"{label}/{images[5]['id']}", dark=True)
     page.keyboard.press("k")
     page.keyboard.press("Shift+?")
@@ -77,19 +89,43 @@ def take_all(browser: Browser, slug: str) -> None:
     take(open_page(browser, "/docs/api"), "api")
 
 
+def take_history(browser: Browser, path: str, image: int) -> None:
+    """Take the long candidate that was merged from the most pieces, with how it was found."""
+    segments = get(f"/images/{image}/segments")["segments"]
+    longest = sorted(segments, key=lambda segment: -segment["length"])[:LONGEST]
+    merged = max(longest, key=lambda segment: len(get(f"/segments/{segment['id']}/history")["pieces"]))
+    page = open_page(browser, f"{path}?segment={merged['id']}")
+    page.keyboard.press("i")
+    page.locator(".stages__content[aria-busy=false]").wait_for()
+    page.mouse.move(WIDE[0] - 100, 150)
+    page.mouse.wheel(0, WIDE[1])  # the panel's end
+    take(page, "label-history")
+
+
+def take_leaderboard(browser: Browser, submission: int) -> None:
+    take(open_page(browser, f"/splits/{SPLIT}"), "leaderboard")
+    take(open_page(browser, f"/submissions/{submission}"), "submission")
+    worst = get(f"/submissions/{submission}/images?sort=f1&limit=1")["items"][0]["image_id"]
+    page = open_page(browser, f"/submissions/{submission}/images/{worst}")
+    page.keyboard.press("j")
+    take(page, "viewer")
+
+
 def main() -> None:
     found = subprocess.run([sys.executable, ROOT / "tools" / "browser.py"], check=True, capture_output=True, text=True)
     clearlines = Path(sys.executable).with_name("clearlines")
     with tempfile.TemporaryDirectory() as folder:
         command = [clearlines, "demo", "--data", folder, "--port", str(PORT), "--no-browser"]
-        server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(command, stdout=subprocess.DEVNULL)
         try:
-            wait_for_candidates("demo-streets")
+            wait_for_candidates(server, "demo-streets")
+            submission = submit_results(Path(folder) / "streets" / "images", Path(folder) / "found", clearlines)
             with sync_playwright() as playwright:
                 browser = playwright.chromium.launch(
                     executable_path=found.stdout.strip(), args=["--no-sandbox", "--disable-background-networking"]
                 )
                 take_all(browser, "demo-streets")
+                take_leaderboard(browser, submission)
                 browser.close()
         finally:
             server.terminate()

@@ -7,6 +7,7 @@ before anything is unpacked, and no array that would need unpickling is accepted
 from __future__ import annotations
 
 import io
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -62,7 +63,7 @@ def read_npz_set(data: bytes, *, where: str = "file", limits: SetLimits = SET_LI
     keys = [composed(str(name)) for name in names]
     check_names(keys, where=where)
     if len(set(keys)) < len(keys):
-        twice = next(key for key in keys if keys.count(key) > 1)
+        twice = Counter(keys).most_common(1)[0][0]
         raise InvalidFile(f"the image {twice!r} is named twice", where=where, expected="each name once")
     points, offsets = _points(arrays, where), _offsets(arrays, "offsets", where)
     images = _offsets(arrays, "image_offsets", where)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.errors import ClearLinesError, InvalidFile
+from app.errors import ClearLinesError, InvalidFile, TooLarge
 from app.formats.inert_npy import read_label_arrays
 from app.formats.json_segments import parse_json
 from app.formats.naming import composed
@@ -122,6 +122,7 @@ def _read_npz(path: str, data: bytes, limits: SubmissionLimits, complaints: Comp
     names = arrays["names"]
     if names.dtype.kind != "U" or names.ndim != 1:
         raise InvalidFile(f"names is {names.dtype} of shape {names.shape}", expected="(I,) text")
+    _check_images(len(names), path, limits)
     if "image_offsets" not in arrays:
         raise InvalidFile("there is no array image_offsets", expected="int64 (I + 1,), from 0 to the segments")
     images = _rising(arrays["image_offsets"], "image_offsets", len(counts))
@@ -130,14 +131,14 @@ def _read_npz(path: str, data: bytes, limits: SubmissionLimits, complaints: Comp
     starts = np.concatenate([[0], np.cumsum(counts)])
     return [
         RawSegments(
-            f"{path}: image {str(name)[:200]}",
-            composed(str(name)),
+            f"{path}: image {name[:200]}",
+            composed(name),
             whole[starts[first] : starts[last]],
             counts[first:last],
             None if values is None else values[first:last],
             named=True,
         )
-        for name, first, last in zip(names, images[:-1].tolist(), images[1:].tolist(), strict=True)
+        for name, first, last in zip(_texts(names), images[:-1].tolist(), images[1:].tolist(), strict=True)
     ]
 
 
@@ -161,10 +162,28 @@ def _read_json(path: str, data: bytes, limits: SubmissionLimits, complaints: Com
     images = document["images"]
     if not isinstance(images, dict):
         raise InvalidFile("images is no object", expected='{"images": {NAME: {"segments": [...]}}}')
+    _check_images(len(images), path, limits)
     return [
         _image_from_json(image, f"{path}: image {name[:200]}", composed(name), limits, complaints, named=True)
-        for name, image in images.items()
+        for name, image in zip(map(_readable, images), images.values(), strict=True)
     ]
+
+
+def _check_images(count: int, where: str, limits: SubmissionLimits) -> None:
+    if count > limits.members:
+        raise TooLarge(f"{count:,} images are too many", where=where, expected=f"at most {limits.members:,}")
+
+
+def _texts(names: NDArray[np.str_]) -> list[str]:
+    try:
+        return [_readable(name) for name in names.tolist()]
+    except SystemError as error:  # numpy takes four bytes for a character, whatever they are
+        raise InvalidFile("names holds what is no character", expected="(I,) text") from error
+
+
+def _readable(name: str) -> str:
+    """Return a name that can be written as UTF-8; a lone surrogate is no character and is spelt out."""
+    return name.encode("utf-8", "backslashreplace").decode()
 
 
 def _image_from_json(
@@ -215,5 +234,5 @@ def _scores(entries: list[Any], file: str, complaints: Complaints) -> NDArray[np
         elif type(value) not in (int, float):
             complaints.add(Problem(f"{value!r:.80} is no score", file, index, expected="a number from 0 to 1"))
         else:
-            values[index] = float(value) if abs(value) < 1e300 else np.inf
+            values[index] = np.inf if abs(value) >= 1e300 else float(value)
     return values

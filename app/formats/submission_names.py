@@ -30,7 +30,8 @@ def match_names(found: Sequence[RawSegments], names: Collection[str], complaints
     for segments in found:
         name = _image_of(segments, known, depth)
         if name is None:
-            hint = _nearest(segments.name, known)
+            # a hint takes a while, and beyond the limit nobody is told it
+            hint = _nearest(segments.name, known) if complaints.has_room else None
             expected = "the name of one of the split's images, or that and " + FILTERED
             complaints.add(Problem("the split has no image of this name", segments.file, expected=expected, hint=hint))
         elif name in matched:

@@ -50,10 +50,15 @@ class Complaints:
     problems: list[Problem] = field(default_factory=list)
     count: int = 0
 
+    @property
+    def has_room(self) -> bool:
+        """Whether one more is kept."""
+        return len(self.problems) < self.limit
+
     def add(self, problem: Problem) -> None:
         """Take one more."""
         self.count += 1
-        if len(self.problems) < self.limit:
+        if self.has_room:
             self.problems.append(problem)
 
     def add_error(self, error: ClearLinesError, file: str | None = None) -> None:

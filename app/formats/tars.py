@@ -20,7 +20,7 @@ BLOCK = 512
 HEADER_BYTES = 2**13
 """Longest header with a long name in it; an extended header may promise any size."""
 SMALL = 2**20
-BROKEN = (tarfile.TarError, EOFError, OSError, zlib.error, ValueError, OverflowError, UnicodeError)
+BROKEN = (tarfile.TarError, EOFError, OSError, zlib.error, ValueError, OverflowError, UnicodeError, RecursionError)
 """What `tarfile` and gzip raise for a broken or unusual file."""
 
 Entry = tuple[str, bytes | ClearLinesError | str]

@@ -218,6 +218,21 @@ def npz_of(**arrays: Any) -> bytes:
     return stream.getvalue()
 
 
+def many_images(count: int) -> bytes:
+    names = np.arange(count).astype("U8")
+    return npz_of(points=np.zeros((0, 2)), offsets=[0], names=names, image_offsets=np.zeros(count + 1, int))
+
+
+def no_character() -> bytes:
+    names = np.array([0x7FFFFFFF], "<u4").view("<U1")
+    return npz_of(points=np.zeros((0, 2)), offsets=[0], names=names, image_offsets=[0, 0])
+
+
+def many_keys() -> bytes:
+    keys = [*range(300_000), 299_999]
+    return b'{"images": {%s}}' % b",".join(b'"%d": 1' % key for key in keys)
+
+
 def many_segments() -> bytes:
     return npz_of(points=np.zeros((10**6, 2), np.uint8), offsets=np.arange(10**6 + 1))
 
@@ -228,6 +243,9 @@ HOSTILE_FILES: dict[str, Callable[[], bytes]] = {
     "10^12 elements.npz": lambda: zip_of({"points.npy": huge_header(), "offsets.npy": huge_header()}),
     "10^6 segments.npz": many_segments,
     "npz of objects.npz": lambda: npz_of(points=np.array([None, "x"], dtype=object), offsets=np.arange(3)),
+    "many images.npz": lambda: many_images(30_000),
+    "no character.npz": no_character,
+    "many keys and one twice.json": many_keys,
     "text.json": lambda: b"{",
     "deep.json": lambda: b'{"segments":' + b"[" * 100_000,
     "NaN.json": lambda: b'{"segments": [{"points": [[NaN, 1], [2, 3]]}]}',
@@ -242,6 +260,15 @@ def test_a_hostile_file_is_refused_by_name(name: str, packer: str) -> None:
     found = problems(packer, PACKERS[packer]({path: HOSTILE_FILES[name]()}))
     assert {each["file"] for each in found} == {path}
     assert not Path("/tmp/never-made-by-a-submission").exists()
+
+
+@pytest.mark.parametrize("name", ["a.npz", "a.json"])
+def test_half_a_character_in_a_name_is_spelt_out(name: str) -> None:
+    half = "\ud800"
+    of_npz = npz_of(points=np.zeros((0, 2)), offsets=[0], names=np.array([half]), image_offsets=[0, 0])
+    of_json = json.dumps({"images": {half: {"segments": []}}}).encode()
+    [problem] = problems(name, of_npz if name == "a.npz" else of_json)
+    assert problem["file"] == f"{name}: image \\ud800"
 
 
 def is_link(info: tarfile.TarInfo) -> None:
@@ -273,6 +300,15 @@ def long_extended_header() -> bytes:
     return gzip.compress(info.tobuf(tarfile.USTAR_FORMAT) + b"0" * info.size + b"\0" * 1024)
 
 
+def header_chain() -> bytes:
+    """A tar.gz of extended headers alone; `tarfile` calls itself for each."""
+    import gzip
+
+    info = tarfile.TarInfo("x")
+    info.type, info.size = tarfile.XHDTYPE, 11
+    return gzip.compress((info.tobuf(tarfile.USTAR_FORMAT) + b"11 path=ab\n".ljust(512, b"\0")) * 5_000)
+
+
 NPZ = write_npz(LabelledSegments(FOUND))
 HOSTILE_TARS: dict[str, tuple[Callable[[], bytes], str]] = {
     "link": (lambda: tar_of({"KITTI/000001.npz": b""}, is_link), "it is a link"),
@@ -284,6 +320,7 @@ HOSTILE_TARS: dict[str, tuple[Callable[[], bytes], str]] = {
     "nested": (lambda: tar_of({"more.zip": zip_of({"KITTI/000001.npz": NPZ})}), "an archive inside the archive"),
     "bomb": (lambda: tar_of({"KITTI/000001.npz": b"\0" * 60 * 2**20}), "unpacks to"),
     "header bomb": (long_extended_header, "a header in the tar is too long"),
+    "header chain": (header_chain, "broken"),
     "cut off": (lambda: tar_of({"KITTI/000001.npz": NPZ})[:-40], "broken"),
     "empty": (lambda: tar_of({}), "the tar holds no file that could be read"),
     "no tar": (lambda: b"\x1f\x8bhello", "broken"),

@@ -29,7 +29,7 @@ from app.errors import NotFound
 from app.services import submission_lists, submission_receiving, submissions
 from app.services.access import Viewer
 from app.services.methods import MethodGiven
-from app.services.scoring_queue import expected_images
+from app.services.split_images import expected_images
 from app.services.splits import current_version, get_split
 from app.services.submission_access import get_submission
 from app.services.submission_files import SubmissionFile, submission_file
