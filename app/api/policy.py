@@ -97,6 +97,7 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "DELETE /splits/{split}",
         "POST /splits/{split}/restore",
         "POST /splits/{split}/versions",
+        "POST /splits/{split}/rescore",
         "POST /submissions/{submission_id}/rescore",
     ),
 }

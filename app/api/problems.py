@@ -15,6 +15,8 @@ from starlette.exceptions import HTTPException
 
 from app.errors import ClearLinesError, Unauthenticated
 
+TOO_MANY_FILES = "Too many files"
+"""How the framework begins its words on a form with more files than it takes."""
 MEDIA_TYPE = "application/problem+json"
 logger = logging.getLogger(__name__)
 
@@ -112,6 +114,8 @@ async def _http_error(request: Request, error: Exception) -> JSONResponse:
     message = messages.get(status, str(error.detail))
     code = status.phrase.lower().replace(" ", "-")
     hint = "/api/docs lists the addresses" if status in messages else None
+    if message.startswith(TOO_MANY_FILES):
+        hint = "pack them into one zip or tar.gz"
     response = problem_response(status, code, message, where=request.url.path, hint=hint)
     response.headers.update(error.headers or {})
     return response

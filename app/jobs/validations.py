@@ -53,10 +53,12 @@ class Validations:
             raise Unavailable("other uploads are being checked", hint="try again in a moment")
         try:
             future = self._submit(upload, name, images)
-            return future.result(self._seconds)
-        except TimeoutError:
-            hint = "hand it in: then it is checked in its turn"
-            raise Unavailable("the check takes long", where=name, hint=hint) from None
+            try:
+                return future.result(self._seconds)
+            except TimeoutError:
+                future.cancel()  # what hasn't begun would be read for nobody, and keep its bytes until then
+                hint = "hand it in: then it is checked in its turn"
+                raise Unavailable("the check takes long", where=name, hint=hint) from None
         except (BrokenExecutor, CancelledError):
             self._end()
             hint = "is it far too large?"

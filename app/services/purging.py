@@ -18,25 +18,16 @@ from app.db.models import (
     Run,
     RunImage,
     Segment,
-    SplitImage,
-    SplitVersion,
     Submission,
 )
 from app.db.session import Database
 from app.services.batches import in_batches
+from app.services.blob_discarding import NAMED_BY
 from app.services.candidates import refresh_counts, verdict_of_segment
 from app.storage import BlobStore
 
 IMAGES_AT_ONCE = 100
 BLOBS_AT_ONCE = 1_000
-
-NAMING_BLOBS = (
-    Image.sha256,
-    SplitImage.image_sha256,
-    SplitVersion.truth_sha256,
-    Submission.upload_sha256,
-    Submission.segments_sha256,
-)
 
 # a file without a row may belong to an upload that is still on its way to its row
 YOUNG = timedelta(hours=1)
@@ -69,6 +60,7 @@ def purge(database: Database, blobs: BlobStore, now: datetime, *, grace: timedel
     images = _purge_images(database, deadline)
     runs = _purge_runs(database, deadline, now)
     datasets = _purge_datasets(database, deadline)
+    _purge_invalid(database, deadline)
     files = _purge_blobs(database, blobs) + _purge_orphans(database, blobs, now)
     blobs.discard_incoming(before=(now - YOUNG).timestamp())
     return Purged(datasets, images, runs, files)
@@ -127,9 +119,16 @@ def _purge_datasets(database: Database, deadline: datetime) -> int:
     return len(ids)
 
 
+def _purge_invalid(database: Database, deadline: datetime) -> None:
+    """Submissions that were found invalid when nobody waited any more: their author had the time to read why."""
+    with database.write() as session:
+        over = (Submission.status == "invalid") & (Submission.created_at <= deadline)
+        session.execute(delete(Submission).where(over).execution_options(synchronize_session=False))
+
+
 def _purge_blobs(database: Database, blobs: BlobStore) -> int:
     """Blobs that no row names; what was frozen or submitted outlives its dataset."""
-    unused = and_(*(~exists().where(column == Blob.sha256) for column in NAMING_BLOBS))
+    unused = and_(*(~exists().where(column == Blob.sha256) for column in NAMED_BY))
     removed = 0
     while True:
         with database.write() as session:

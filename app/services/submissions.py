@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 from datetime import datetime
 from typing import Any
 
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import SUBMISSION_VISIBILITIES, Score, Submission
+from app.db.models import SUBMISSION_VISIBILITIES, Score, SplitVersion, Submission
 from app.errors import Conflict, Forbidden, InvalidInput
 from app.services.access import Viewer, can_maintain
 from app.services.events import record_event
-from app.services.splits import UNCHANGED, Unchanged, get_version
+from app.services.splits import UNCHANGED, Unchanged, get_split, get_version
 from app.services.submission_access import get_submission, require_author
 from app.services.submission_log import add_to_log
 from app.services.submission_states import add_score, open_score
@@ -59,6 +60,8 @@ def restore(session: Session, viewer: Viewer, submission_id: int, now: datetime)
     else:
         done = select(Score.id).where(Score.submission_id == submission.id, Score.status == "done").limit(1)
         submission.status = "failed" if session.scalar(done) is None else "scored"
+    if submission.status == "scored":  # its last work may have been done while it was withdrawn
+        submission.scored_at = submission.scored_at or now
     add_to_log(submission, "restored", now)
     _record(session, "submission.restored", submission, viewer, now)
     return submission
@@ -97,6 +100,39 @@ def rescore(
     add_to_log(submission, f"queued to be scored on version {version.number}", now)
     _record(session, "submission.rescored", submission, viewer, now, version=version.number)
     return submission
+
+
+def rescore_all(session: Session, viewer: Viewer, slug: str, split_version: int | None, now: datetime) -> int:
+    """Score all scored submissions of a split anew, as `rescore`, but for those that have the very score already.
+
+    Args:
+        session: A writing session.
+        viewer: Who asks.
+        slug: Of the split.
+        split_version: Number of the version; the newest when left out.
+        now: When.
+
+    Returns:
+        Number of submissions that were queued.
+
+    Raises:
+        NotFound: When there is no such split or version.
+        Forbidden: For others than maintainers.
+    """
+    split = get_split(session, slug)
+    version = get_version(session, split, split_version)
+    of_split = (
+        select(Submission.id)
+        .join(SplitVersion, SplitVersion.id == Submission.split_version_id)
+        .where(SplitVersion.split_id == split.id, Submission.status == "scored")
+        .order_by(Submission.id)
+    )
+    queued = 0
+    for submission_id in session.scalars(of_split).all():
+        with contextlib.suppress(Conflict):
+            rescore(session, viewer, submission_id, version.number, now)
+            queued += 1
+    return queued
 
 
 def change_submission(

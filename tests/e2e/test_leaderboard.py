@@ -217,7 +217,7 @@ def test_images_are_sorted_by_any_number_and_the_address_can_be_shared(page: Pag
     page.get_by_label("Search images").fill("corn")
     expect(images).to_have_count(1)
     images.first.press("Enter")
-    expect(page).to_have_url(re.compile(rf"/submissions/{dull}/images/\d+\?sort="))
+    expect(page).to_have_url(re.compile(rf"/submissions/{dull}/images/\d+\?sort=name&search=corn"))
     page.go_back()
     expect(page.get_by_label("Search images")).to_have_value("corn")
 
@@ -265,18 +265,74 @@ def test_a_dataset_has_a_card(page: Page, board: Any) -> None:
     assert board.ask("/datasets/streets/card")["licence"] == "CC BY 4.0"
 
 
-def test_a_token_signs_in_and_out(page: Page, board: Any) -> None:
-    command = [Path(sys.executable).with_name("clearlines"), "token", "create", "ada", "--role", "submitter"]
-    made = subprocess.run([*command, "--data", board.data], check=True, capture_output=True, text=True)
+def test_a_figure_that_fails_can_be_asked_for_again(page: Page, board: Any) -> None:
+    page.route("**/card.png", lambda route: route.abort(), times=1)
+    page.goto(f"{board.address}/datasets/streets/card")
+    expect(page.get_by_role("alert")).to_contain_text("The figure can't be shown")
+    page.get_by_role("button", name="Try again").click()
+    expect(page.get_by_role("figure").get_by_role("img")).to_be_visible()
+    expect(page.get_by_role("alert")).to_have_count(0)
+
+
+def test_a_narrow_board_is_scrolled_by_keyboard(page: Page, board: Any) -> None:
+    page.set_viewport_size({"width": 700, "height": 700})
+    page.goto(f"{board.address}/splits/old-town")
+    table = page.get_by_role("region", name="Leaderboard")
+    name = table.get_by_role("rowheader").first
+    before = name.bounding_box()
+    table.focus()
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+    page.wait_for_function("() => document.querySelector('.table-scroll__region').scrollLeft > 60")
+    after = name.bounding_box()
+    assert before
+    assert after
+    # It stays in view, at the edge at most.
+    assert before["x"] - 20 <= after["x"] <= before["x"]
+
+
+def make_token(server: Any, name: str, role: str) -> str:
+    command = [Path(sys.executable).with_name("clearlines"), "token", "create", name, "--role", role]
+    made = subprocess.run([*command, "--data", server.data], check=True, capture_output=True, text=True)
     token = re.search(r"cl_\S+", made.stdout)
     assert token
+    return token.group()
+
+
+def test_a_reader_looks_at_everything_and_is_offered_no_change(page: Page, server: Any) -> None:
+    page.request.post(f"{server.address}/api/session", data={"token": make_token(server, "rita", "reader")})
+    page.goto(server.address)
+    expect(page.get_by_role("button", name="rita, reader")).to_be_visible()
+    expect(page.get_by_role("link", name="streets")).to_be_visible()
+    for name in ("New dataset", "More for streets"):
+        expect(page.get_by_role("button", name=name)).to_have_count(0)
+    page.get_by_role("link", name="streets").click()
+    expect(page.get_by_role("button", name="Export")).to_be_visible()
+    for name in ("Pre-label", "Add images", "streets"):
+        expect(page.get_by_role("button", name=name)).to_have_count(0)
+    expect(page.get_by_role("checkbox", name="Select alley")).to_have_count(0)
+    page.get_by_role("button", name="View images").click()
+    expect(page).to_have_url(re.compile(r"/images/\d+"))
+    verdicts = page.get_by_role("group", name="Verdict on the selected candidate")
+    expect(verdicts.get_by_role("button", name="Reject")).to_be_disabled()
+    expect(page.get_by_role("button", name="Reopen")).to_have_count(0)
+    page.keyboard.press("x")
+    expect(page.locator(".toaster").get_by_text("Judging needs the role annotator")).to_be_visible()
+    page.get_by_role("button", name="Next image").click()
+    expect(page.get_by_role("heading", name="Image 2 of 3")).to_be_visible()
+    image = server.ask("/datasets/streets/images")["items"][0]
+    assert image["verdicts"]["reject"] == 0
+
+
+def test_a_token_signs_in_and_out(page: Page, board: Any) -> None:
+    token = make_token(board, "ada", "submitter")
     page.goto(f"{board.address}/datasets/streets?tab=splits")
     expect(page.get_by_role("button", name="Freeze a split")).to_be_visible()
     page.get_by_role("button", name="Not signed in, owner").click()
     page.get_by_label("Token").fill("cl_wrong")
     page.keyboard.press("Enter")
     expect(page.get_by_role("alert")).to_be_visible()
-    page.get_by_label("Token").fill(token.group())
+    page.get_by_label("Token").fill(token)
     page.keyboard.press("Enter")
     expect(page.get_by_role("button", name="ada, submitter")).to_be_visible()
     expect(page.get_by_role("link", name="Old town")).to_be_visible()

@@ -296,6 +296,21 @@ def test_keys_go_through_the_images_in_their_order(page: Page, scored: Scored) -
     expect(page.get_by_role("application", name="Image b")).to_be_visible()
 
 
+def test_keys_stay_among_the_images_that_were_searched_for(page: Page, scored: Scored) -> None:
+    page.goto(f"{scored.server.address}/submissions/{scored.mine}?tab=images&sort=f1")
+    images = page.get_by_role("list", name="Images").get_by_role("link")
+    expect(images).to_have_count(3)
+    page.get_by_label("Search images").fill("b")
+    expect(images).to_have_count(1)
+    images.first.click()
+    expect(page.get_by_label("Result on this image")).to_contain_text("Image 1 of 1")
+    page.keyboard.press("n")
+    expect(page.get_by_text("This is the last image")).to_be_attached()
+    page.get_by_role("link", name="Row finder v1").click()
+    expect(images).to_have_count(1)
+    expect(page.get_by_label("Search images")).to_have_value("b")
+
+
 def test_two_submissions_move_together_and_show_where_they_differ(page: Page, scored: Scored) -> None:
     open_viewer(page, scored.address("a"))
     page.get_by_role("button", name="With…").click()

@@ -9,7 +9,7 @@ import sys
 import time
 import zipfile
 from collections.abc import Iterator
-from concurrent.futures import BrokenExecutor, Executor
+from concurrent.futures import BrokenExecutor, Executor, Future
 from pathlib import Path
 from typing import Any
 
@@ -93,3 +93,24 @@ def test_checks_go_on_after_their_worker_was_killed() -> None:
             assert time.monotonic() < deadline
     finally:
         validations.stop()
+
+
+class Idle(Executor):
+    """An executor that never begins anything."""
+
+    def __init__(self) -> None:
+        self.futures: list[Future[Any]] = []
+
+    def submit(self, *arguments: Any, **named: Any) -> Future[Any]:
+        del arguments, named
+        self.futures.append(Future())
+        return self.futures[-1]
+
+
+def test_a_check_whose_sender_waited_too_long_is_not_kept() -> None:
+    idle = Idle()
+    validations = Validations(SubmissionLimits(), TaskLimits(), 0.01, executors=lambda workers: idle)
+    for _ in range(3):
+        with pytest.raises(Unavailable, match="takes long"):
+            validations.validate(b"", "a.zip", [])
+    assert [future.cancelled() for future in idle.futures] == [True] * 3

@@ -16,6 +16,7 @@ from app.api.routers import submission_images
 from app.api.schemas.base import RowId
 from app.api.schemas.submissions import (
     Rescore,
+    Rescored,
     SubmissionAnswer,
     SubmissionChange,
     SubmissionPage,
@@ -201,6 +202,17 @@ def rescore(
         submissions.rescore(session, viewer, submission_id, given.split_version, now)
     server.dispatcher.wake()
     return _read(server, viewer, submission_id)
+
+
+@router.post("/splits/{split}/rescore", status_code=status.HTTP_202_ACCEPTED)
+def rescore_all(
+    server: ServerDep, viewer: ViewerDep, now: Now, split: str, given: Annotated[Rescore, Body(default_factory=Rescore)]
+) -> Rescored:
+    """Score all scored submissions of a split anew, but for those that have the very score already."""
+    with server.database.write() as session:
+        queued = submissions.rescore_all(session, viewer, split, given.split_version, now)
+    server.dispatcher.wake()
+    return Rescored(queued=queued)
 
 
 @router.get("/submissions/{submission_id}/file", response_class=Response, responses={**submission_images.BINARY})

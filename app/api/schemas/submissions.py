@@ -174,3 +174,9 @@ class Rescore(Given):
     model_config = ConfigDict(json_schema_extra={"example": {"split_version": 1}})
 
     split_version: int | None = Field(default=None, ge=1, le=2**31 - 1)
+
+
+class Rescored(Answer):
+    """How many submissions were queued to be scored anew."""
+
+    queued: int

@@ -1,18 +1,18 @@
-/* Linking edge points into chains and splitting these into runs that an arc fits; see app/vision/chaining.py. */
+/* Linking edge points into chains; see app/vision/chaining.py. */
 #include "kernels.h"
 #include "places.h"
 
-enum { LONGEST_STEP = 3, SHORTEST_CHAIN = 5, SHORTEST_RUN = 6, POINTS_FOR_CURVATURE = 24 };
+enum { LONGEST_STEP = 3, SHORTEST_CHAIN = 5 };
 /* px, of a point from where the mean of both slopes puts it: without a step, and for each */
 #define LARGEST_MISFIT 0.7f
 #define MISFIT_PER_STEP 0.3f
 #define LARGEST_TURN 1.0f
-#define TOLERANCE 0.7f
-#define LARGEST_CURVATURE (1.0 / 300)
 
 #define TAKEN -1.0f
 /* RING: lines whose points may still be linked to the next one, a power of two */
 enum { WINDOW = 2, WIDEST = 2 * WINDOW + 1, LIKELY = 2, RING = 4 };
+/* points are as far apart in memory as chains are long, so each is asked for before its turn */
+enum { AHEAD = 32 };
 
 /* The points of one pass; those up to `low` are left out. */
 typedef struct {
@@ -22,10 +22,18 @@ typedef struct {
     float low;
 } Field;
 
+/* A chain of two points and more. */
+typedef struct {
+    int32_t length;
+    float strongest; /* norm of a point */
+    int32_t next;    /* where its next point is listed */
+    int32_t is_kept;
+} Chain;
+
 /* What linking has found so far, and the room it works in. */
 typedef struct {
     int32_t *following; /* of each point, -1 where there is none */
-    uint8_t *preceded;  /* whether a point follows another */
+    int32_t *chain;     /* of each point, and of one more that isn't there: the number of its chain, 0 for none */
     /* of the latest lines, the points without a following one */
     int32_t *loose[RING];
     int count[RING];
@@ -105,7 +113,6 @@ static void link_line(const Field *field, int line, int step, Links *links) {
         const int linked = least[i] == nearest[other];
         nearest[other] = linked ? TAKEN : nearest[other];
         links->following[one] = linked ? first + other : -1;
-        links->preceded[linked ? first + other : one] |= (uint8_t)linked;
         loose[left] = one;
         left += !linked;
     }
@@ -124,7 +131,7 @@ static void link_points(const Field *field, Links *links) {
             const int strong = fabsf(field->points[i].norm) > field->low;
             links->nearest[i - first] = strong ? INFINITY : TAKEN;
             links->following[i] = -1;
-            links->preceded[i] = 0;
+            links->chain[i] = 0;
             loose[count] = i;
             count += strong;
         }
@@ -137,10 +144,10 @@ static void link_points(const Field *field, Links *links) {
 static int take_memory(Links *links, size_t points, size_t most) {
     const size_t pairs = WIDEST * most + LIKELY;
     *links = (Links){.following = malloc(sizeof(int32_t) * points),
-                     .preceded = malloc(points),
+                     .chain = malloc(sizeof(int32_t) * (points + 1)),
                      .best = malloc(sizeof(int32_t) * ((RING + 1) * most + 2 * pairs)),
                      .least = malloc(sizeof(float) * (2 * most + pairs))};
-    if (!links->following || !links->preceded || !links->best || !links->least) return OUT_OF_MEMORY;
+    if (!links->following || !links->chain || !links->best || !links->least) return OUT_OF_MEMORY;
     for (int i = 0; i < RING; i++) links->loose[i] = links->best + (size_t)(i + 1) * most;
     links->source = links->best + (RING + 1) * most;
     links->target = links->source + pairs;
@@ -151,84 +158,50 @@ static int take_memory(Links *links, size_t points, size_t most) {
 
 static void free_memory(Links *links) {
     free(links->following);
-    free(links->preceded);
+    free(links->chain);
     free(links->best);
     free(links->least);
 }
 
-/* The parabola through a run of points, across = constant + linear u + square u^2 with u measured from `middle`. */
-typedef struct {
-    float middle, constant, linear, square;
-    float cosine; /* of its direction at the mean */
-} Parabola;
-
-static Parabola fit_parabola(const float *along, const float *across, int count) {
-    const double middle = along[count / 2], level = across[count / 2];
-    double su = 0, suu = 0, suuu = 0, suuuu = 0, sv = 0, suv = 0, suuv = 0;
-    for (int i = 0; i < count; i++) {
-        const double u = along[i] - middle, v = across[i] - level, square = u * u;
-        su += u, suu += square, suuu += square * u, suuuu += square * square;
-        sv += v, suv += u * v, suuv += square * v;
+/* Number the chains of two points and more from 1 on, in the order of their first points. The points are gone through
+ * as they lie in memory: from link to link, each would have to be waited for. Returns the number of chains. */
+static int32_t number_chains(const Field *field, const Links *links, int32_t count, Chain *chains) {
+    int32_t numbers = 0, *chain = links->chain;
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t following = links->following[i], is_first = chain[i] == 0, is_last = following < 0;
+        const int32_t number = is_first ? numbers + 1 : chain[i];
+        const float norm = fabsf(field->points[i].norm), strongest = is_first ? 0 : chains[number].strongest;
+        chains[number].length = is_first ? 1 : chains[number].length + 1;
+        chains[number].strongest = norm > strongest ? norm : strongest;
+        chain[is_last ? count : following] = number;
+        chain[i] = is_first & is_last ? 0 : number;
+        numbers += is_first & !is_last;
     }
-    /* moments about the mean */
-    const double m = su / count, n = sv / count, raw2 = suu / count, raw3 = suuu / count, raw4 = suuuu / count;
-    const double uu = raw2 - m * m, uv = suv / count - m * n, uuu = raw3 - 3 * m * raw2 + 2 * m * m * m;
-    const double tilt = uv / uu, cosine = 1 / sqrt(1 + tilt * tilt), skew = uuu / uu;
-    /* by a polynomial orthogonal to 1 and u; curvature = 2 b cos^3 */
-    double b = 0;
-    if (count >= POINTS_FOR_CURVATURE) {
-        const double uuuu = raw4 - 4 * m * raw3 + 6 * m * m * raw2 - 3 * m * m * m * m;
-        const double uuv = suuv / count - 2 * m * suv / count + m * m * n - uu * n;
-        const double norm = uuuu - uu * uu - skew * uuu, product = uuv - skew * uv;
-        const double limit = LARGEST_CURVATURE / (2 * cosine * cosine * cosine), free = product / norm;
-        if (norm > 0) b = free > limit ? limit : free < -limit ? -limit : free;
-    }
-    /* n + tilt (u - m) + b ((u - m)^2 - uu - skew (u - m)) in powers of u */
-    const double linear = tilt - b * skew;
-    return (Parabola){(float)middle, (float)(level + n - linear * m + b * (m * m - uu)), (float)(linear - 2 * b * m),
-                      (float)b, (float)cosine};
+    return numbers;
 }
 
-/* Whether an arc fits a run of points to 0.7 px; if not, the point farthest from its chord. */
-static int fits_arc(const float *along, const float *across, int count, int *cut) {
-    const Parabola fit = fit_parabola(along, across, count);
-    const float tolerance = TOLERANCE / fit.cosine;
-    int outside = 0;
-    for (int i = 0; i < count; i++) {
-        const float u = along[i] - fit.middle;
-        outside += fabsf(across[i] - fit.constant - u * (fit.linear + u * fit.square)) > tolerance;
+/* Move the chains that are long and strong enough to the front, and list their points in `rows`, chain after chain.
+ * Returns their number. */
+static int32_t list_chains(const Links *links, int32_t count, Chain *chains, int32_t numbers, float high,
+                           int32_t *rows) {
+    int32_t used = 0, kept = 0;
+    chains[0] = (Chain){0};
+    for (int32_t i = 1; i <= numbers; i++) {
+        chains[i].is_kept = (chains[i].length >= SHORTEST_CHAIN) & (chains[i].strongest > high);
+        chains[i].next = used;
+        used += chains[i].is_kept ? chains[i].length : 0;
     }
-    if (!outside) return 1;
-    const double start = along[0], level = across[0];
-    const double chord = (across[count - 1] - level) / (along[count - 1] - start);
-    double farthest = -1;
-    for (int i = 1; i < count - 1; i++) {
-        const double deviation = fabs(across[i] - level - chord * (along[i] - start));
-        if (deviation > farthest) farthest = deviation, *cut = i;
+    /* the points left out are written behind the others, one over the other: if there is one there is room */
+    for (int32_t i = 0; i <= numbers; i++)
+        if (!chains[i].is_kept) chains[i].next = used;
+    for (int32_t i = 0; i < count; i++) {
+        Chain *own = &chains[links->chain[i]];
+        rows[own->next] = i;
+        own->next += own->is_kept;
     }
-    return 0;
-}
-
-/* Split one chain; the point of a cut belongs to neither side: a corner is no measurement of either edge. */
-static int64_t split_chain(const float *along, const float *across, int count, int *stack, int64_t begin,
-                           int64_t *runs) {
-    int64_t found = 0;
-    int depth = 0;
-    stack[depth++] = 0, stack[depth++] = count;
-    while (depth) {
-        const int stop = stack[--depth], start = stack[--depth];
-        if (stop - start < SHORTEST_RUN) continue;
-        int cut = 0;
-        if (fits_arc(along + start, across + start, stop - start, &cut)) {
-            runs[2 * found] = begin + start;
-            runs[2 * found + 1] = begin + stop;
-            found++;
-        } else {
-            stack[depth++] = start + cut + 1, stack[depth++] = stop;
-            stack[depth++] = start, stack[depth++] = start + cut;
-        }
-    }
-    return found;
+    for (int32_t i = 1; i <= numbers; i++)
+        if (chains[i].is_kept) chains[kept++] = chains[i];
+    return kept;
 }
 
 /* Chain the points of one pass and split the chains.
@@ -247,35 +220,34 @@ EXPORT FOR_EACH_PROCESSOR int64_t cl_runs(const EdgePoint *points, int64_t count
     Links links;
     float *along = malloc(sizeof(float) * 2 * (size_t)lines);
     int *stack = malloc(sizeof(int) * 4 * (size_t)(lines + 2));
-    int64_t found = 0, used = 0, chains = 0;
-    if (take_memory(&links, room, most) || !along || !stack) {
+    Chain *chains = malloc(sizeof(Chain) * (room / 2 + 2));
+    int64_t found = 0, used = 0;
+    if (take_memory(&links, room, most) || !along || !stack || !chains) {
         found = OUT_OF_MEMORY;
         goto end;
     }
     float *across = along + lines;
     link_points(&field, &links);
-    for (int64_t i = 0; i < count; i++) {
-        if (links.preceded[i] || links.following[i] < 0) continue;
-        int length = 0;
-        float strongest = 0;
-        for (int32_t row = (int32_t)i; row >= 0; row = links.following[row]) {
-            rows[used + length] = row;
-            along[length] = (float)points[row].along;
-            across[length] = points[row].across;
-            const float norm = fabsf(points[row].norm);
-            strongest = norm > strongest ? norm : strongest;
-            length++;
+    const int32_t numbers = number_chains(&field, &links, (int32_t)count, chains);
+    const int32_t kept = list_chains(&links, (int32_t)count, chains, numbers, (float)high, rows);
+    const int64_t listed = kept ? chains[kept - 1].next : 0;
+    for (int32_t i = 0; i < kept; i++) {
+        for (int j = 0; j < chains[i].length; j++) {
+            const EdgePoint *point = &points[rows[used + j]];
+            if (used + j + AHEAD < listed) __builtin_prefetch(&points[rows[used + j + AHEAD]]);
+            along[j] = (float)point->along;
+            across[j] = point->across;
         }
-        if (length < SHORTEST_CHAIN || !(strongest > (float)high)) continue;
-        found += split_chain(along, across, length, stack, used, runs + 2 * found);
-        used += length;
-        chain_ends[chains++] = used;
+        found += split_chain(along, across, chains[i].length, stack, used, runs + 2 * found);
+        used += chains[i].length;
+        chain_ends[i] = used;
     }
     sizes[0] = used;
-    sizes[1] = chains;
+    sizes[1] = kept;
 end:
     free_memory(&links);
     free(along);
     free(stack);
+    free(chains);
     return found;
 }

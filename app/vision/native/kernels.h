@@ -90,6 +90,10 @@ Vector arc_direction(const Arc *arc, double u);
 void arc_project(const Arc *arc, Vector point, double *along, double *distance);
 static inline Vector arc_end(const Arc *arc, int end) { return arc_position(arc, end ? arc->high : arc->low); }
 
+/* splitting.c: write the first and one past the last index of each run, counted from `begin` on; `stack` has room for
+ * 4 (count + 2). Returns the number of runs. */
+int64_t split_chain(const float *along, const float *across, int count, int *stack, int64_t begin, int64_t *runs);
+
 /* gaps.c */
 double effective_gap(const Scene *scene, const Arc *first, const Arc *second, Vector leave, Vector enter,
                      int same_polarity);

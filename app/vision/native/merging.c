@@ -47,6 +47,7 @@ typedef struct {
      * of each cell in `firsts`; those of the arcs made of them are in lists, `heads` being the latest of each cell */
     Slot *slots; /* in order, then those in the lists */
     int32_t *firsts, *heads, *next;
+    int32_t *listed; /* ends that may face the one looked at */
     PairHeap heap;
     double longest_reach;
 } Merger;
@@ -141,29 +142,40 @@ typedef struct {
     uint16_t first, steps;
 } Facing;
 
-/* Consider the pair of an end with one that may face it. With `shorter_only` pairs with ends of longer arcs, and of
- * equals those of a higher number, are left to these. */
-static inline int consider_slot(Merger *merger, int32_t end, Facing facing, const Slot *slot, int shorter_only) {
-    const uint16_t turn = (uint16_t)(slot->direction - facing.first);
-    const int32_t other = slot->end;
-    if (turn > facing.steps || other / 2 == end / 2 || !merger->alive[other / 2]) return 0;
-    const End *own = &merger->ends[end], *to = &merger->ends[other];
-    if (shorter_only && (to->length > own->length || (to->length == own->length && other < end))) return 0;
-    const Vector vector = minus(to->place, own->place);
-    const double most = larger(own->reach, to->reach);
-    if (dot(vector, vector) > most * most) return 0;
-    return consider(merger, end, other);
+/* List the ends in some neighbouring cells whose direction is right. Which are cannot be guessed, so all are written
+ * and those counted. Returns their number, those listed before included. */
+static int32_t list_facing(Merger *merger, Facing facing, int32_t first, int32_t last, int with_made, int32_t count) {
+    int32_t *listed = merger->listed;
+    const Slot *stop = merger->slots + merger->firsts[last + 1];
+    for (const Slot *slot = merger->slots + merger->firsts[first]; slot < stop; slot++) {
+        listed[count] = slot->end;
+        count += (uint16_t)(slot->direction - facing.first) <= facing.steps;
+    }
+    if (!with_made) return count;
+    for (int32_t cell = first; cell <= last; cell++)
+        for (int32_t other = merger->heads[cell]; other >= 0; other = merger->next[other]) {
+            listed[count] = other;
+            count += (uint16_t)(merger->slots[other].direction - facing.first) <= facing.steps;
+        }
+    return count;
 }
 
-/* Consider the pairs of an end with those in some neighbouring cells. */
-static int consider_cells(Merger *merger, int32_t end, Facing facing, int32_t first, int32_t last, int shorter_only) {
-    const Slot *stop = merger->slots + merger->firsts[last + 1];
-    for (const Slot *slot = merger->slots + merger->firsts[first]; slot < stop; slot++)
-        if (consider_slot(merger, end, facing, slot, shorter_only)) return OUT_OF_MEMORY;
-    if (shorter_only) return 0; /* nothing has been merged yet */
-    for (int32_t cell = first; cell <= last; cell++)
-        for (int32_t other = merger->heads[cell]; other >= 0; other = merger->next[other])
-            if (consider_slot(merger, end, facing, &merger->slots[other], 0)) return OUT_OF_MEMORY;
+/* Consider the pairs of an end with the first `count` listed. With `shorter_only` pairs with ends of longer arcs, and
+ * of equals those of a higher number, are left to these. */
+static int consider_listed(Merger *merger, int32_t end, int32_t count, int shorter_only) {
+    const End *own = &merger->ends[end];
+    /* in large images each lies far from the others, and is asked for before its turn */
+    for (int32_t i = 0; i < count; i++) __builtin_prefetch(&merger->ends[merger->listed[i]]);
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t other = merger->listed[i];
+        if (other / 2 == end / 2 || !merger->alive[other / 2]) continue;
+        const End *to = &merger->ends[other];
+        if (shorter_only && (to->length > own->length || (to->length == own->length && other < end))) continue;
+        const Vector vector = minus(to->place, own->place);
+        const double most = larger(own->reach, to->reach);
+        if (dot(vector, vector) > most * most) continue;
+        if (consider(merger, end, other)) return OUT_OF_MEMORY;
+    }
     return 0;
 }
 
@@ -178,6 +190,7 @@ static int consider_ahead(Merger *merger, int32_t end, double reach, int shorter
     const int y1 = cell_of(own->place.y + larger(back_y, ahead_y) + margin_y, merger->rows);
     const uint16_t opposite = (uint16_t)(direction_of(own->outward) + (int)(2 * DIRECTION_STEPS));
     const Facing facing = {(uint16_t)(opposite - merger->turn), (uint16_t)(2 * merger->turn)};
+    int32_t count = 0;
     const double per_row = fabs(own->outward.y) > 1e-6 ? 1 / own->outward.y : 0;
     for (int y = y0; y <= y1; y++) {
         /* the part of the rectangle's middle line whose breadth touches this row of cells; those at the border hold all
@@ -196,10 +209,11 @@ static int consider_ahead(Merger *merger, int32_t end, double reach, int shorter
         for (int side = 0; side < 2; side++) {
             if (merger->rule->same_polarity != 0 && side == end % 2) continue;
             const int32_t row = (side * merger->rows + y) * merger->columns;
-            if (consider_cells(merger, end, facing, row + x0, row + x1, shorter_only)) return OUT_OF_MEMORY;
+            /* while each end looks for shorter arcs, nothing has been merged yet */
+            count = list_facing(merger, facing, row + x0, row + x1, !shorter_only, count);
         }
     }
-    return 0;
+    return consider_listed(merger, end, count, shorter_only);
 }
 
 /* Merge arcs until no pair fulfils the rule.
@@ -218,11 +232,14 @@ EXPORT int64_t cl_merge(const Scene *scene, Arc *arcs, int64_t count, const Rule
     merger.ends = malloc(2 * room * sizeof(End));
     merger.alive = malloc(room);
     merger.slots = malloc(2 * room * sizeof(Slot));
+    merger.listed = malloc(2 * room * sizeof(int32_t));
     merger.next = malloc(2 * room * sizeof(int32_t));
     merger.firsts = calloc(2 * cells + 1, sizeof(int32_t));
     merger.heads = malloc(2 * cells * sizeof(int32_t));
     int64_t left = OUT_OF_MEMORY;
-    if (!merger.ends || !merger.alive || !merger.slots || !merger.next || !merger.firsts || !merger.heads) goto end;
+    if (!merger.ends || !merger.listed || !merger.alive || !merger.slots || !merger.next || !merger.firsts ||
+        !merger.heads)
+        goto end;
     memset(merger.heads, 0xff, 2 * cells * sizeof(int32_t));
     merger.count = (int32_t)count;
     for (int32_t arc = 0; arc < count; arc++) note_ends(&merger, arc);
@@ -281,6 +298,7 @@ end:
     free(merger.alive);
     free(merger.slots);
     free(merger.next);
+    free(merger.listed);
     free(merger.firsts);
     free(merger.heads);
     free(merger.heap.pairs);

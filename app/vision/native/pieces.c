@@ -3,6 +3,10 @@
 
 #define SIDE_DISTANCE 3.0f
 
+/* In large images the points of a run and the pixels beside them are far from those of the run before. Nothing but
+ * their numbers tells where, so they are asked for so many points before their turn. */
+enum { POINTS_AHEAD = 32, GRAY_AHEAD = 16 };
+
 static inline uint8_t gray_near(const uint8_t *gray, int width, int height, float x, float y) {
     const int column = clamp((int)lrintf(x), 0, width - 1), row = clamp((int)lrintf(y), 0, height - 1);
     return gray[(size_t)row * (size_t)width + (size_t)column];
@@ -14,6 +18,10 @@ static inline uint8_t gray_near(const uint8_t *gray, int width, int height, floa
  * that of the normal; `number` is the first of the numbers that the pieces get. */
 EXPORT void cl_pieces(const EdgePoint *points, int axis, const int32_t *rows, const int64_t *runs, int64_t count,
                       const uint8_t *gray, int width, int height, int32_t number, Arc *arcs) {
+    const int64_t listed = count ? runs[2 * count - 1] : 0;
+    const size_t along_stride = axis == ALONG_X ? 1 : (size_t)width,
+                 across_stride = axis == ALONG_X ? (size_t)width : 1;
+    const int size = axis == ALONG_X ? height : width;
     for (int64_t i = 0; i < count; i++) {
         const int64_t first = runs[2 * i], last = runs[2 * i + 1];
         Arc *arc = &arcs[i];
@@ -27,6 +35,14 @@ EXPORT void cl_pieces(const EdgePoint *points, int axis, const int32_t *rows, co
         int64_t dark = 0, bright = 0, beside = 0;
         Vector start = {0, 0}, end = {0, 0};
         for (int64_t j = first; j < last; j++) {
+            if (j + POINTS_AHEAD < listed) {
+                __builtin_prefetch(&points[rows[j + POINTS_AHEAD]]);
+                const EdgePoint *later = &points[rows[j + GRAY_AHEAD]];
+                const uint8_t *line = gray + (size_t)later->along * along_stride;
+                const int pixel = (int)later->across;
+                __builtin_prefetch(line + (size_t)clamp(pixel - (int)SIDE_DISTANCE, 0, size - 1) * across_stride);
+                __builtin_prefetch(line + (size_t)clamp(pixel + (int)SIDE_DISTANCE, 0, size - 1) * across_stride);
+            }
             const EdgePoint *point = &points[rows[j]];
             const double x_place = axis == ALONG_X ? point->along : point->across;
             const double y_place = axis == ALONG_X ? point->across : point->along;

@@ -128,6 +128,29 @@ def test_a_new_version_of_the_truth_leaves_old_numbers_alone(field, perfect_resu
     assert len(client.get(f"/api/splits/{field.split}/board?version=1").json()["rows"]) == 1
 
 
+def test_all_submissions_of_a_split_are_scored_anew(field, perfect_results, half_results, client: TestClient) -> None:
+    ids = [field.scored(perfect_results, method="A")["id"], field.scored(half_results, method="B")["id"]]
+    address = f"/api/splits/{field.split}/rescore"
+    assert client.post(address).json() == {"queued": 0}
+    image = field.images[0]
+    segment = client.get(f"/api/images/{image}/segments").json()["segments"][0]
+    names = dict.fromkeys(("client_id", "group_id"), "5f0c1c8e-0c5e-4d2c-9a55-333333333333")
+    decision = {**names, "segment_id": segment["id"], "verdict": "reject"}
+    assert client.post(f"/api/images/{image}/decisions", json={"decisions": [decision]}).status_code == 200
+    assert client.post(f"/api/splits/{field.split}/versions").status_code == 201
+    assert client.post(address).json() == {"queued": 2}
+    assert [len(field.finished(each)["scores"]) for each in ids] == [2, 2]
+    assert client.post(address, json={"split_version": 9}).status_code == 404
+    assert client.post(address, json={"split_version": 1}).json() == {"queued": 0}
+
+
+def test_too_many_loose_files_are_refused_with_a_hint(field, client: TestClient) -> None:
+    files = [("files", (f"{number}.npz", b"")) for number in range(1001)]
+    answer = client.post(f"/api/splits/{field.split}/submissions/validate", files=files)
+    assert answer.status_code == 400
+    assert answer.json()["hint"] == "pack them into one zip or tar.gz"
+
+
 def test_own_results_come_back_as_they_are_scored(field, half_results, client: TestClient) -> None:
     done = field.scored(half_results)
     with np.load(io.BytesIO(client.get(f"/api/submissions/{done['id']}/file").content)) as file:

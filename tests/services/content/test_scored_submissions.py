@@ -21,6 +21,7 @@ from app.services.blob_discarding import discard_blob
 from app.services.boards import BoardCache, board_csv, board_of
 from app.services.comparisons import compare_submissions
 from app.services.paging import Page
+from app.services.purging import purge
 from app.services.score_storing import store_images, store_totals
 from app.services.scoring_attempts import release_lost_submissions
 from app.services.scoring_claims import InHand, PartClaim, TotalsClaim
@@ -296,3 +297,33 @@ def test_what_is_withdrawn_before_it_is_scored_is_charged(yard: Yard) -> None:
         withdraw(session, ann, first.id, later)
         session.flush()
         assert used_today(session, split, "ann", later) == 1
+
+
+def test_what_was_scored_while_it_was_withdrawn_is_charged_and_comes_back_as_scored(yard: Yard) -> None:
+    ann = Viewer("ann", "submitter")
+    later = yard.now + timedelta(hours=1)
+    submission_id = yard.add("a", [3] * IMAGES, minutes=1, status="queued")
+    with yard.database.write() as session:
+        withdraw(session, ann, submission_id, later)
+        score = open_score(session, submission_id)
+        assert score is not None
+        score.status = "done"
+    with yard.database.write() as session:
+        assert used_today(session, session.get_one(Split, 1), "ann", later) == 1
+        restored = restore(session, ann, submission_id, later)
+        assert (restored.status, restored.scored_at) == ("scored", later)
+
+
+def test_invalid_ones_that_nobody_waited_for_go_after_the_grace_period(yard: Yard, tmp_path: Path) -> None:
+    yard.add("a", [3] * IMAGES)
+    invalid = yard.add("b", [3] * IMAGES, status="invalid", minutes=1)
+    grace, blobs = timedelta(days=7), BlobStore(tmp_path)
+
+    def left(later: timedelta) -> int:
+        purge(yard.database, blobs, yard.now + later, grace=grace)
+        with yard.database.read() as session:
+            return session.query(Submission).filter(Submission.id == invalid).count()
+
+    assert [left(grace), left(grace + timedelta(minutes=1))] == [1, 0]
+    with yard.database.read() as session:
+        assert session.query(Submission).count() == 1
