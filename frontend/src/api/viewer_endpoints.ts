@@ -6,15 +6,27 @@ import type { ScoredImageDetail } from "./viewer_types";
 const IMAGE = "/api/submissions/{submission_id}/images/{split_image_id}";
 const path = (submission_id: number, split_image_id: number) => ({ submission_id, split_image_id });
 
-/** @param sort The order that the neighbours are of; null: by name. */
+/** Which images one goes through, and in which order; nulls: all of them, by name. */
+export interface ImageList {
+  readonly sort: string | null;
+  /** Part of their names. */
+  readonly search: string | null;
+}
+
+export const ALL_BY_NAME: ImageList = { sort: null, search: null };
+
+/** @param list What the neighbours are of. */
 export const getScoredImage = (
   submission: number,
   image: number,
-  sort: string | null,
+  { sort, search }: ImageList,
 ): Promise<ScoredImageDetail> =>
   unwrap(
     client.GET(IMAGE, {
-      params: { path: path(submission, image), query: sort === null ? {} : { sort } },
+      params: {
+        path: path(submission, image),
+        query: { ...(sort === null ? {} : { sort }), ...(search === null ? {} : { search }) },
+      },
     }),
   );
 

@@ -37,8 +37,11 @@ export function splitForEllipsis(name: string, end = 10): [string, string] {
 /** A message of the server as a sentence; it gives them without capital letter and full stop. */
 export function sentence(text: string): string {
   const trimmed = text.trim();
-  const ended = /[.!?:]$/.test(trimmed) ? trimmed : `${trimmed}.`;
-  return ended.charAt(0).toUpperCase() + ended.slice(1);
+  return capitalized(/[.!?:]$/.test(trimmed) ? trimmed : `${trimmed}.`);
+}
+
+export function capitalized(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** "1.2 MB/s" for bytes per second. */

@@ -1,7 +1,8 @@
 /** Metrics as they are written: values, intervals, differences. */
 
 import type { Measured } from "../api/board_types";
-import { METRIC_GROUPS, type Metric, type MetricUnit } from "./metric_groups";
+import type { Metric, MetricUnit } from "./metric";
+import { METRIC_GROUPS } from "./metric_groups";
 
 const BY_KEY = new Map(METRIC_GROUPS.flatMap(({ metrics }) => metrics).map((entry) => [entry.key, entry]));
 

@@ -20,7 +20,8 @@ export function BoardHead({ metrics, official, sort, onSort }: BoardHeadProps) {
     <thead>
       {official.length > 0 ? (
         <tr className="board-groups">
-          <th colSpan={3} className="board-groups__first" />
+          <th colSpan={2} className="board-groups__first" />
+          <th />
           <th colSpan={Math.max(1, metrics.length)}>clearlines-v2</th>
           <th colSpan={official.length} className="board-official board-official--first">
             official-v1, as published

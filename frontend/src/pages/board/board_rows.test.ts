@@ -9,7 +9,7 @@ import {
   readSort,
   sortRows,
   sortText,
-  tiedNames,
+  tiedText,
 } from "./board_rows";
 
 function row(slug: string, f1: number | null, more: Partial<BoardRow> = {}): BoardRow {
@@ -76,7 +76,12 @@ describe("rows of a board", () => {
 
   it("name those they are tied with", () => {
     const rows = [row("a", 0.5, { tied_with: ["b", "gone"] }), row("b", 0.5)];
-    expect(rows[0] && tiedNames(rows[0], rows)).toEqual(["B", "gone"]);
+    expect(rows.map((each) => tiedText(each, rows))).toEqual(["Tied with B, gone", null]);
+  });
+
+  it("count those they are tied with where they are many", () => {
+    const tied_with = ["c", "d", "e", "f", "g", "h", "i"];
+    expect(tiedText(row("a", 0.5, { tied_with }), [])).toBe("Tied with c, d, e, f, g and 2 others");
   });
 
   it("take the best from people's entries before baselines and ceilings", () => {

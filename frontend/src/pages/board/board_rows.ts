@@ -73,9 +73,16 @@ export function rankText({ rank_low, rank_high }: Pick<BoardRow, "rank_low" | "r
   return rank_low === rank_high ? String(rank_low) : `${rank_low}–${rank_high}`;
 }
 
-/** The names that a row can't be told apart from. */
-export function tiedNames(row: BoardRow, rows: readonly BoardRow[]): string[] {
-  return row.tied_with.map((slug) => rows.find(({ method }) => method.slug === slug)?.method.name ?? slug);
+/** More names than these are counted. */
+const NAMED = 5;
+
+/** Whom a row can't be told apart from: "Tied with A, B and 12 others"; null where it can from all. */
+export function tiedText({ tied_with }: BoardRow, rows: readonly BoardRow[]): string | null {
+  if (tied_with.length === 0) return null;
+  const named = tied_with.length > NAMED + 1 ? tied_with.slice(0, NAMED) : tied_with;
+  const names = named.map((slug) => rows.find(({ method }) => method.slug === slug)?.method.name ?? slug);
+  const others = tied_with.length - named.length;
+  return `Tied with ${names.join(", ")}${others > 0 ? ` and ${others} others` : ""}`;
 }
 
 /** The highest F1 of somebody's entry; of a baseline where there is no entry yet. */

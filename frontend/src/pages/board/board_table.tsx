@@ -1,10 +1,12 @@
-import { useRef } from "react";
+import { useRef, useState } from "react";
 import { Link } from "react-router";
 import type { BoardRow } from "../../api/board_types";
 import { IntervalBar } from "../../charts/interval_bar";
 import { fittedDomain } from "../../charts/scale";
-import { formatDay, sentence } from "../../design/format";
+import { Button } from "../../design/button";
+import { formatCount, formatDay, sentence } from "../../design/format";
 import { Icon, type IconName } from "../../design/icons";
+import { TableScroll } from "../../design/table_scroll";
 import { intervalText, metricText } from "../metrics";
 import { KindBadge } from "../split_badges";
 import { useArrowKeys } from "../use_arrow_keys";
@@ -15,9 +17,14 @@ import {
   OFFICIAL_COLUMNS,
   rankText,
   type Sort,
-  tiedNames,
+  tiedText,
   totalOf,
 } from "./board_rows";
+
+/** A board longer than this waits for being asked, so that what is below it stays within reach. */
+const FIRST_ROWS = 50;
+/** So few more aren't worth the asking. */
+const SPARE_ROWS = 10;
 
 interface BoardTableProps {
   rows: readonly BoardRow[];
@@ -29,6 +36,8 @@ interface BoardTableProps {
 
 export function BoardTable({ rows, sort, onSort, highlighted, onHighlight }: BoardTableProps) {
   const table = useRef<HTMLDivElement>(null);
+  const [whole, setWhole] = useState(false);
+  const shown = whole || rows.length < FIRST_ROWS + SPARE_ROWS ? rows : rows.slice(0, FIRST_ROWS);
   useArrowKeys(table, ".board-method__name a");
   const metrics = knownMetrics(rows, METRIC_COLUMNS).filter((key) => key !== "f1");
   const official = knownMetrics(rows, OFFICIAL_COLUMNS);
@@ -39,12 +48,12 @@ export function BoardTable({ rows, sort, onSort, highlighted, onHighlight }: Boa
   const warned = rows.some(({ warning }) => warning !== null);
   return (
     <div ref={table} className="card board-table">
-      <div className="table-scroll">
+      <TableScroll label="Leaderboard">
         <table className="table">
           <caption className="visually-hidden">Leaderboard</caption>
           <BoardHead metrics={metrics} official={official} sort={sort} onSort={onSort} />
           <tbody>
-            {rows.map((row) => (
+            {shown.map((row) => (
               <tr
                 key={row.method.slug}
                 className={`board-row board-row--${row.method.kind}`}
@@ -81,7 +90,14 @@ export function BoardTable({ rows, sort, onSort, highlighted, onHighlight }: Boa
             ))}
           </tbody>
         </table>
-      </div>
+      </TableScroll>
+      {shown.length < rows.length ? (
+        <p className="board-table__more">
+          <Button small icon="down" onClick={() => setWhole(true)}>
+            Show all {formatCount(rows.length)} methods
+          </Button>
+        </p>
+      ) : null}
       {warned && official.length > 0 ? (
         <p className="board-footnote muted">
           <Icon name="warning" size={14} /> official-v1 counts every prediction that lies on a label: where R
@@ -93,12 +109,11 @@ export function BoardTable({ rows, sort, onSort, highlighted, onHighlight }: Boa
 }
 
 function Rank({ row, rows }: { row: BoardRow; rows: readonly BoardRow[] }) {
-  const tied = tiedNames(row, rows);
-  const text = tied.length > 0 ? `Tied with ${tied.join(", ")}` : undefined;
+  const text = tiedText(row, rows) ?? undefined;
   return (
     <td className="board-rank numeric" title={text}>
       {rankText(row)}
-      {tied.length > 0 ? (
+      {text ? (
         <span className="board-tied">
           <span aria-hidden="true">tied</span>
           <span className="visually-hidden">{text}</span>

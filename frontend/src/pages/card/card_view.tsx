@@ -1,19 +1,19 @@
-import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
-import { meQuery } from "../../api/board_queries";
 import type { Card } from "../../api/board_types";
+import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
 import { formatCount, formatQuantity } from "../../design/format";
 import { VerdictBar } from "../../design/progress";
+import { TableScroll } from "../../design/table_scroll";
 import { CopyButton } from "../api_docs/copy_button";
 import { metricText } from "../metrics";
 import { verdictText } from "../verdict_text";
 import { CardForm } from "./card_form";
+import { Figure } from "./figure";
 
 export function CardView({ slug, card }: { slug: string; card: Card }) {
-  const me = useQuery(meQuery);
   const [editing, setEditing] = useState(false);
-  const maintains = me.data?.can.maintain === true;
+  const { maintain: maintains } = useRights();
   return (
     <article className="board-page card-page">
       <header className="board-page__header">
@@ -37,7 +37,7 @@ export function CardView({ slug, card }: { slug: string; card: Card }) {
         </div>
       </header>
       {editing ? <CardForm slug={slug} card={card} close={() => setEditing(false)} /> : null}
-      {card.figure ? <Figure address={card.figure} /> : null}
+      {card.figure ? <Figure address={card.figure} size={card.sources[0]?.sizes[0]} /> : null}
       <Sources card={card} />
       <TableOne card={card} />
       <section className="section card" aria-labelledby="verdicts-title">
@@ -50,20 +50,11 @@ export function CardView({ slug, card }: { slug: string; card: Card }) {
   );
 }
 
-function Figure({ address }: { address: string }) {
-  return (
-    <figure className="section card card-figure">
-      <img src={address} alt="Three panels: a street, the candidates found in it, and those that were kept" />
-      <figcaption className="muted">Image, candidates, kept labels.</figcaption>
-    </figure>
-  );
-}
-
 function Sources({ card }: { card: Card }) {
   return (
     <section className="section card" aria-labelledby="sources-title">
       <h2 id="sources-title">Images by source</h2>
-      <div className="table-scroll">
+      <TableScroll label="Images by source">
         <table className="table">
           <thead>
             <tr>
@@ -105,7 +96,7 @@ function Sources({ card }: { card: Card }) {
             </tr>
           </tfoot>
         </table>
-      </div>
+      </TableScroll>
     </section>
   );
 }
@@ -115,7 +106,7 @@ function TableOne({ card }: { card: Card }) {
     return (
       <section className="section card">
         <h2>Pre-labelling against the labels</h2>
-        <p className="muted">Shown once images with candidates are done.</p>
+        <p className="muted">Shown once images that were pre-labelled are done.</p>
       </section>
     );
   }
@@ -125,7 +116,7 @@ function TableOne({ card }: { card: Card }) {
         <h2 id="table-one-title">Pre-labelling against the labels</h2>
         <span className="muted">The paper's Table I; official-v1 unless said otherwise</span>
       </header>
-      <div className="table-scroll">
+      <TableScroll label="Pre-labelling against the labels">
         <table className="table">
           <thead>
             <tr>
@@ -162,7 +153,7 @@ function TableOne({ card }: { card: Card }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </TableScroll>
     </section>
   );
 }

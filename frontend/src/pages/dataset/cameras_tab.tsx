@@ -4,6 +4,7 @@ import { Link } from "react-router";
 import { listCameras, updateCamera } from "../../api/endpoints";
 import { keys } from "../../api/queries";
 import type { Camera } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Badge } from "../../design/badge";
 import { IconButton } from "../../design/button";
 import { Ellipsis } from "../../design/ellipsis";
@@ -61,6 +62,7 @@ function CameraCard({ slug, camera }: { slug: string; camera: Camera }) {
 function CameraName({ slug, camera }: { slug: string; camera: Camera }) {
   const client = useQueryClient();
   const [renaming, setRenaming] = useState(false);
+  const { maintain } = useRights();
   if (renaming) {
     return (
       <InlineEdit
@@ -79,7 +81,9 @@ function CameraName({ slug, camera }: { slug: string; camera: Camera }) {
       <h2>
         <Ellipsis text={camera.name} />
       </h2>
-      <IconButton small icon="pencil" label="Rename" side="end" onClick={() => setRenaming(true)} />
+      {maintain ? (
+        <IconButton small icon="pencil" label="Rename" side="end" onClick={() => setRenaming(true)} />
+      ) : null}
     </div>
   );
 }

@@ -1,6 +1,7 @@
 import { type ReactNode, useState } from "react";
 import { Link, useNavigate } from "react-router";
 import type { Dataset } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
 import { Ellipsis } from "../../design/ellipsis";
 import { formatDay, formatQuantity } from "../../design/format";
@@ -28,7 +29,8 @@ interface DatasetHeaderProps {
 export function DatasetHeader(props: DatasetHeaderProps) {
   const { dataset, running, prelabelOpen, onLabel, onPrelabel, onPicked, exportMenu } = props;
   const { images, candidates, reviewed, verdicts } = dataset;
-  const labelFirst = candidates > 0 || running;
+  const { label, maintain } = useRights();
+  const labelFirst = candidates > 0 || running || !maintain;
   return (
     <header className="dataset-header">
       <div className="dataset-header__main">
@@ -44,34 +46,24 @@ export function DatasetHeader(props: DatasetHeaderProps) {
           <>
             <Button
               tone={labelFirst ? "primary" : "default"}
-              icon="lines"
+              icon={label ? "lines" : "eye"}
               aria-keyshortcuts="L"
               onClick={onLabel}
             >
-              Label <Keys keys={["L"]} />
+              {label ? "Label" : "View images"} <Keys keys={["L"]} />
             </Button>
-            <Button
-              tone={labelFirst ? "default" : "primary"}
-              icon="play"
-              aria-expanded={prelabelOpen}
-              onClick={onPrelabel}
-            >
-              Pre-label
-            </Button>
+            {maintain ? (
+              <Button
+                tone={labelFirst ? "default" : "primary"}
+                icon="play"
+                aria-expanded={prelabelOpen}
+                onClick={onPrelabel}
+              >
+                Pre-label
+              </Button>
+            ) : null}
             {exportMenu}
-            <Popover label="Add images" icon="plus">
-              {(close) => (
-                <div className="add-images">
-                  <p className="muted">Or drop files, folders or zips anywhere on the page.</p>
-                  <FileButtons
-                    onPicked={(picked) => {
-                      close();
-                      onPicked(picked);
-                    }}
-                  />
-                </div>
-              )}
-            </Popover>
+            {maintain ? <AddImages onPicked={onPicked} /> : null}
           </>
         ) : null}
         <More dataset={dataset} />
@@ -92,9 +84,35 @@ export function DatasetHeader(props: DatasetHeaderProps) {
   );
 }
 
+function AddImages({ onPicked }: { onPicked: (picked: Picked) => void }) {
+  return (
+    <Popover label="Add images" icon="plus">
+      {(close) => (
+        <div className="add-images">
+          <p className="muted">Or drop files, folders or zips anywhere on the page.</p>
+          <FileButtons
+            onPicked={(picked) => {
+              close();
+              onPicked(picked);
+            }}
+          />
+        </div>
+      )}
+    </Popover>
+  );
+}
+
 function Title({ dataset }: { dataset: Dataset }) {
   const [renaming, setRenaming] = useState(false);
   const { rename } = useDatasetActions();
+  const { maintain } = useRights();
+  if (!maintain) {
+    return (
+      <h1 className="dataset-header__title">
+        <Ellipsis text={dataset.name} end={12} />
+      </h1>
+    );
+  }
   if (renaming) {
     return (
       <InlineEdit
@@ -117,6 +135,7 @@ function Title({ dataset }: { dataset: Dataset }) {
 
 function More({ dataset }: { dataset: Dataset }) {
   const { remove } = useDatasetActions();
+  const { maintain } = useRights();
   const navigate = useNavigate();
   return (
     <Popover label="More" icon="more" iconOnly tone="quiet">
@@ -128,13 +147,15 @@ function More({ dataset }: { dataset: Dataset }) {
           <Link className="menu-item dataset-header__link" to="?tab=splits">
             <Icon name="podium" /> Splits and leaderboards
           </Link>
-          <button
-            type="button"
-            className="menu-item menu-item--danger"
-            onClick={async () => (await remove(dataset)) && navigate("/")}
-          >
-            <Icon name="trash" /> Delete this dataset
-          </button>
+          {maintain ? (
+            <button
+              type="button"
+              className="menu-item menu-item--danger"
+              onClick={async () => (await remove(dataset)) && navigate("/")}
+            >
+              <Icon name="trash" /> Delete this dataset
+            </button>
+          ) : null}
         </>
       )}
     </Popover>

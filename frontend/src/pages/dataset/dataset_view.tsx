@@ -4,6 +4,7 @@ import { Link, useNavigate, useSearchParams } from "react-router";
 import { listImages } from "../../api/endpoints";
 import { keys } from "../../api/queries";
 import type { Dataset, Run } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { formatCount } from "../../design/format";
 import { FileDrop } from "../../uploads/file_drop";
 import type { Picked } from "../../uploads/picked_files";
@@ -34,11 +35,14 @@ export function DatasetView({ dataset }: { dataset: Dataset }) {
   const { runs, active } = useRuns(slug);
   const [prelabelling, setPrelabelling] = useState<{ ids: number[] } | null>(null);
   const navigate = useNavigate();
+  const rights = useRights();
   useCountsFollow(slug, active);
 
   const label = async () => {
     try {
-      const first = (await listImages(slug, { status: "open", sort: "name" }, null, 1)).items[0];
+      // Whoever can't label goes through all images.
+      const wanted = rights.label ? ({ status: "open", sort: "name" } as const) : ({ sort: "name" } as const);
+      const first = (await listImages(slug, wanted, null, 1)).items[0];
       navigate(first ? `/datasets/${slug}/images/${first.id}` : `/datasets/${slug}/finished`);
     } catch (error) {
       failed(error);
@@ -88,7 +92,7 @@ export function DatasetView({ dataset }: { dataset: Dataset }) {
           {tab === "splits" ? <SplitsTab dataset={dataset} /> : null}
         </>
       )}
-      <FileDrop label={`Drop to add to ${dataset.name}`} onPicked={pick} />
+      {rights.maintain ? <FileDrop label={`Drop to add to ${dataset.name}`} onPicked={pick} /> : null}
     </div>
   );
 }

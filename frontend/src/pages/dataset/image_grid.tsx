@@ -21,6 +21,8 @@ interface ImageGridProps {
   items: readonly ImageSummary[];
   total: number;
   size: GridSize;
+  /** Whether images can be selected. */
+  choosable: boolean;
   selection: Selection;
   onSelect: (change: (selection: Selection) => Selection) => void;
   /** Places `[first, end)` in view. */
@@ -28,7 +30,8 @@ interface ImageGridProps {
 }
 
 /** Thumbnails of any number of images: only those in view are in the page. */
-export function ImageGrid({ slug, items, total, size, selection, onSelect, onView }: ImageGridProps) {
+export function ImageGrid(props: ImageGridProps) {
+  const { slug, items, total, size, choosable, selection, onSelect, onView } = props;
   const root = useRef<HTMLUListElement>(null);
   const [current, setCurrent] = useState(0);
   const navigate = useNavigate();
@@ -45,10 +48,11 @@ export function ImageGrid({ slug, items, total, size, selection, onSelect, onVie
 
   const select = useCallback(
     (event: { shiftKey: boolean }, id: number) => {
+      if (!choosable) return;
       const ids = order.current.map((image) => image.id);
       onSelect((old) => (event.shiftKey ? extended(old, ids, id) : toggled(old, id)));
     },
-    [onSelect],
+    [choosable, onSelect],
   );
   const onCheck = useCallback(
     (event: MouseEvent, image: ImageSummary, index: number) => {
@@ -123,7 +127,7 @@ export function ImageGrid({ slug, items, total, size, selection, onSelect, onVie
                 selected={selection.ids.has(image.id)}
                 current={index === Math.min(current, items.length - 1)}
                 onPress={onPress}
-                onCheck={onCheck}
+                onCheck={choosable ? onCheck : null}
               />
             ) : (
               <div className="image-tile image-tile--loading skeleton" />

@@ -21,7 +21,8 @@ interface ImageTileProps {
   /** The one tile that Tab leads to. */
   current: boolean;
   onPress: (event: MouseEvent, image: ImageSummary, index: number) => void;
-  onCheck: (event: MouseEvent, image: ImageSummary, index: number) => void;
+  /** Null where nothing can be selected. */
+  onCheck: ((event: MouseEvent, image: ImageSummary, index: number) => void) | null;
 }
 
 export const ImageTile = memo(function ImageTile(props: ImageTileProps) {
@@ -48,16 +49,18 @@ export const ImageTile = memo(function ImageTile(props: ImageTileProps) {
           <VerdictBar counts={image.verdicts} />
         </span>
       </Link>
-      <label className="image-tile__check">
-        <input
-          type="checkbox"
-          tabIndex={-1}
-          checked={selected}
-          aria-label={`Select ${image.name}`}
-          readOnly
-          onClick={(event) => onCheck(event, image, index)}
-        />
-      </label>
+      {onCheck ? (
+        <label className="image-tile__check">
+          <input
+            type="checkbox"
+            tabIndex={-1}
+            checked={selected}
+            aria-label={`Select ${image.name}`}
+            readOnly
+            onClick={(event) => onCheck(event, image, index)}
+          />
+        </label>
+      ) : null}
     </div>
   );
 });

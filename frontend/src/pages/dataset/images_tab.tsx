@@ -4,6 +4,7 @@ import { useSearchParams } from "react-router";
 import { getFacets } from "../../api/endpoints";
 import { keys } from "../../api/queries";
 import type { Dataset, Run } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
 import { formatCount, formatQuantity } from "../../design/format";
 import { EmptyState, ErrorState } from "../../design/states";
@@ -44,6 +45,8 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
   const [selection, setSelection] = useState<Selection>(NOTHING_SELECTED);
   const [size, setSize] = useGridSize();
   const actions = useImageActions(slug);
+  // All that can be done with chosen images changes them.
+  const { maintain: choosable } = useRights();
   const tab = useRef<HTMLDivElement>(null);
   const searchField = useRef<HTMLInputElement>(null);
   const scroller = useRef<HTMLElement | null>(null);
@@ -76,6 +79,7 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
   useRefreshWhile(active, () => refresh(inView.current.first, inView.current.end));
 
   const selectAll = async () => {
+    if (!choosable) return;
     try {
       const everything = hasNextPage ? await loadAll() : items;
       setSelection(all(everything.map((image) => image.id)));
@@ -127,6 +131,7 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
           items={items}
           total={total}
           size={size}
+          choosable={choosable}
           selection={selection}
           onSelect={setSelection}
           onView={onView}

@@ -1,4 +1,5 @@
 import type { Run } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
 import { formatCount, formatDuration } from "../../design/format";
 import { Progress } from "../../design/progress";
@@ -8,6 +9,7 @@ import { useRunActions } from "./use_run_actions";
 /** The run under way: how far, how long still, and a way to stop it. */
 export function RunStrip({ slug, run }: { slug: string; run: Run }) {
   const { cancel } = useRunActions(slug);
+  const { maintain } = useRights();
   const over = finishedCount(run);
   const { counts, total, candidates, seconds_left } = run;
   const parts = [`${formatCount(counts.done)} done`];
@@ -24,9 +26,11 @@ export function RunStrip({ slug, run }: { slug: string; run: Run }) {
       <span className="visually-hidden" aria-live="polite">
         {Math.floor((10 * over) / Math.max(1, total)) * 10} % pre-labelled
       </span>
-      <Button small icon="stop" onClick={() => cancel(run.id)}>
-        Cancel
-      </Button>
+      {maintain ? (
+        <Button small icon="stop" onClick={() => cancel(run.id)}>
+          Cancel
+        </Button>
+      ) : null}
       <Progress label="Pre-labelling" value={over} total={total} />
     </section>
   );

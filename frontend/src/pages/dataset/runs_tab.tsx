@@ -1,5 +1,6 @@
 import type { UseQueryResult } from "@tanstack/react-query";
 import type { Run } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button, IconButton } from "../../design/button";
 import { formatCount, formatDate, formatDuration, formatQuantity } from "../../design/format";
 import { EmptyState, ErrorState } from "../../design/states";
@@ -17,6 +18,7 @@ interface RunsTabProps {
 
 /** The history of runs: with which parameters, how long, what came of it. */
 export function RunsTab({ slug, runs, onPrelabel }: RunsTabProps) {
+  const { maintain } = useRights();
   if (runs.isError) return <ErrorState error={runs.error} onRetry={() => runs.refetch()} />;
   if (!runs.data)
     return <div className="skeleton runs-tab__loading" role="status" aria-label="Loading runs" />;
@@ -26,9 +28,11 @@ export function RunsTab({ slug, runs, onPrelabel }: RunsTabProps) {
         icon="play"
         title="No runs yet"
         actions={
-          <Button tone="primary" icon="play" onClick={onPrelabel}>
-            Pre-label
-          </Button>
+          maintain ? (
+            <Button tone="primary" icon="play" onClick={onPrelabel}>
+              Pre-label
+            </Button>
+          ) : null
         }
       >
         A run finds candidates in all images and estimates the lens of each camera.
@@ -45,7 +49,7 @@ export function RunsTab({ slug, runs, onPrelabel }: RunsTabProps) {
 }
 
 function RunCard({ slug, run }: { slug: string; run: Run }) {
-  const { retry, cancel, remove } = useRunActions(slug);
+  const { maintain } = useRights();
   const { counts } = run;
   const active = isActive(run);
   return (
@@ -56,27 +60,7 @@ function RunCard({ slug, run }: { slug: string; run: Run }) {
         <time className="muted numeric" dateTime={run.created_at}>
           {formatDate(run.created_at)}
         </time>
-        <div className="run-card__actions">
-          {active ? (
-            <Button small icon="stop" onClick={() => cancel(run.id)}>
-              Cancel
-            </Button>
-          ) : null}
-          {counts.failed > 0 && !active ? (
-            <Button small icon="retry" onClick={() => retry(run.id)}>
-              Retry {formatQuantity(counts.failed, "image")}
-            </Button>
-          ) : null}
-          {active ? null : (
-            <IconButton
-              small
-              side="end"
-              icon="trash"
-              label="Delete this run"
-              onClick={() => remove(run.id)}
-            />
-          )}
-        </div>
+        {maintain ? <RunActions slug={slug} run={run} /> : null}
       </header>
       <dl className="run-card__facts numeric">
         <Fact name="Images" value={imagesText(run)} />
@@ -91,6 +75,29 @@ function RunCard({ slug, run }: { slug: string; run: Run }) {
       {run.error ? <p className="field__error">{run.error.message}</p> : null}
       {counts.failed > 0 ? <RunFailures slug={slug} run={run} /> : null}
     </li>
+  );
+}
+
+function RunActions({ slug, run }: { slug: string; run: Run }) {
+  const { retry, cancel, remove } = useRunActions(slug);
+  const { counts } = run;
+  const active = isActive(run);
+  return (
+    <div className="run-card__actions">
+      {active ? (
+        <Button small icon="stop" onClick={() => cancel(run.id)}>
+          Cancel
+        </Button>
+      ) : null}
+      {counts.failed > 0 && !active ? (
+        <Button small icon="retry" onClick={() => retry(run.id)}>
+          Retry {formatQuantity(counts.failed, "image")}
+        </Button>
+      ) : null}
+      {active ? null : (
+        <IconButton small side="end" icon="trash" label="Delete this run" onClick={() => remove(run.id)} />
+      )}
+    </div>
   );
 }
 

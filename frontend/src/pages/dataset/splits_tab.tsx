@@ -1,7 +1,8 @@
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
-import { meQuery, splitsQuery } from "../../api/board_queries";
+import { splitsQuery } from "../../api/board_queries";
 import type { Dataset } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
 import { EmptyState, ErrorState } from "../../design/states";
 import { SplitCard } from "../splits/split_card";
@@ -12,9 +13,8 @@ import "./splits_tab.css";
 /** The splits that were frozen from a dataset, and the place to freeze one. */
 export function SplitsTab({ dataset }: { dataset: Dataset }) {
   const splits = useQuery(splitsQuery);
-  const me = useQuery(meQuery);
   const [freezing, setFreezing] = useState(false);
-  const maintains = me.data?.can.maintain === true;
+  const { maintain: maintains } = useRights();
   if (splits.isError) return <ErrorState error={splits.error} onRetry={() => splits.refetch()} />;
   if (!splits.data) {
     return <div className="skeleton splits-tab__loading" role="status" aria-label="Loading splits" />;

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { Link } from "react-router";
 import { thumbnailUrl } from "../../api/endpoints";
 import type { Dataset } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Ellipsis } from "../../design/ellipsis";
 import { formatDay, formatQuantity } from "../../design/format";
 import { Icon } from "../../design/icons";
@@ -17,7 +18,8 @@ import "./dataset_card.css";
 /** A dataset at a glance; the whole card leads to it. */
 export function DatasetCard({ dataset }: { dataset: Dataset }) {
   const [renaming, setRenaming] = useState(false);
-  const { rename, remove } = useDatasetActions();
+  const { rename } = useDatasetActions();
+  const { maintain } = useRights();
   const { slug, name, images, reviewed, verdicts, candidates, latest_run } = dataset;
   return (
     <li className="dataset-card card">
@@ -37,32 +39,7 @@ export function DatasetCard({ dataset }: { dataset: Dataset }) {
                 <Ellipsis text={name} />
               </Link>
             </h2>
-            <Popover label={`More for ${name}`} icon="more" iconOnly tone="quiet" small>
-              {(close) => (
-                <>
-                  <button
-                    type="button"
-                    className="menu-item"
-                    onClick={() => {
-                      close();
-                      setRenaming(true);
-                    }}
-                  >
-                    <Icon name="pencil" /> Rename
-                  </button>
-                  <button
-                    type="button"
-                    className="menu-item menu-item--danger"
-                    onClick={() => {
-                      close();
-                      void remove(dataset);
-                    }}
-                  >
-                    <Icon name="trash" /> Delete
-                  </button>
-                </>
-              )}
-            </Popover>
+            {maintain ? <Menu dataset={dataset} onRename={() => setRenaming(true)} /> : null}
           </div>
         )}
         <p className="dataset-card__facts muted numeric">
@@ -91,6 +68,38 @@ export function DatasetCard({ dataset }: { dataset: Dataset }) {
         </div>
       </div>
     </li>
+  );
+}
+
+function Menu({ dataset, onRename }: { dataset: Dataset; onRename: () => void }) {
+  const { remove } = useDatasetActions();
+  return (
+    <Popover label={`More for ${dataset.name}`} icon="more" iconOnly tone="quiet" small>
+      {(close) => (
+        <>
+          <button
+            type="button"
+            className="menu-item"
+            onClick={() => {
+              close();
+              onRename();
+            }}
+          >
+            <Icon name="pencil" /> Rename
+          </button>
+          <button
+            type="button"
+            className="menu-item menu-item--danger"
+            onClick={() => {
+              close();
+              void remove(dataset);
+            }}
+          >
+            <Icon name="trash" /> Delete
+          </button>
+        </>
+      )}
+    </Popover>
   );
 }
 

@@ -4,6 +4,7 @@ import { Link, useNavigate } from "react-router";
 import { listDatasets } from "../../api/endpoints";
 import { configurationQuery, keys } from "../../api/queries";
 import type { Dataset } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
 import { formatQuantity } from "../../design/format";
 import { InlineEdit } from "../../design/inline_edit";
@@ -38,6 +39,7 @@ export function DatasetsPage() {
         : false,
   });
   const { createFor } = useDatasetActions();
+  const { maintain } = useRights();
   const navigate = useNavigate();
   useRefreshAfterUploads();
 
@@ -57,7 +59,7 @@ export function DatasetsPage() {
       <div className="datasets-page">
         {datasets.data ? (
           datasets.data.length === 0 ? (
-            <Welcome onPicked={takeFiles} />
+            <FirstPage onPicked={takeFiles} />
           ) : (
             <DatasetCollection datasets={datasets.data} />
           )
@@ -66,12 +68,22 @@ export function DatasetsPage() {
         ) : (
           <DatasetSkeletons />
         )}
-        {datasets.data ? <RecentlyDeleted /> : null}
+        {datasets.data && maintain ? <RecentlyDeleted /> : null}
         <PageFoot />
       </div>
-      <FileDrop label="Drop to make a new dataset" onPicked={takeFiles} />
+      {maintain ? <FileDrop label="Drop to make a new dataset" onPicked={takeFiles} /> : null}
       <UploadPanel />
     </PageFrame>
+  );
+}
+
+function FirstPage({ onPicked }: { onPicked: (picked: Picked) => void }) {
+  const { maintain } = useRights();
+  if (maintain) return <Welcome onPicked={onPicked} />;
+  return (
+    <EmptyState icon="images" title="No datasets to look at">
+      Whoever maintains this server hasn't published any. With a token, more may be here: sign in at the top.
+    </EmptyState>
   );
 }
 
@@ -81,11 +93,12 @@ function DatasetCollection({ datasets }: { datasets: Dataset[] }) {
   const searchField = useRef<HTMLInputElement>(null);
   const list = useRef<HTMLUListElement>(null);
   const { create } = useDatasetActions();
+  const { maintain } = useRights();
   const navigate = useNavigate();
   useArrowKeys(list, ".dataset-card__link");
   useHotkeys({
     "/": () => searchField.current?.focus(),
-    n: () => setAdding(true),
+    n: () => setAdding(maintain),
   });
 
   const wanted = search.trim().toLocaleLowerCase();
@@ -117,9 +130,11 @@ function DatasetCollection({ datasets }: { datasets: Dataset[] }) {
               }}
             />
           ) : null}
-          <Button tone="primary" icon="plus" onClick={() => setAdding(true)}>
-            New dataset
-          </Button>
+          {maintain ? (
+            <Button tone="primary" icon="plus" onClick={() => setAdding(true)}>
+              New dataset
+            </Button>
+          ) : null}
         </div>
       </header>
       {adding ? (

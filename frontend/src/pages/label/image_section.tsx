@@ -2,6 +2,7 @@ import { useState } from "react";
 import { Link } from "react-router";
 import { thumbnailUrl } from "../../api/endpoints";
 import type { ImageDetail } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { ReviewBadge } from "../../design/badge";
 import { Button } from "../../design/button";
 import { Icon } from "../../design/icons";
@@ -21,6 +22,7 @@ interface ImageSectionProps {
 
 /** Where one is in the dataset, how far the image is, and the two neighbours. */
 export function ImageSection({ slug, image, actions, discarding, ready }: ImageSectionProps) {
+  const { label: judges } = useRights();
   return (
     <section className="panel-section" aria-label="Image">
       <div className="panel-heading">
@@ -29,7 +31,7 @@ export function ImageSection({ slug, image, actions, discarding, ready }: ImageS
         </h2>
         <span className="panel-heading__end">
           <ReviewBadge status={image.status} />
-          {image.status !== "open" ? (
+          {!judges ? null : image.status !== "open" ? (
             <Button small tone="quiet" onClick={() => actions.setReview("open")}>
               Reopen
             </Button>

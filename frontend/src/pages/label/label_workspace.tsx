@@ -2,6 +2,7 @@ import { useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useRef, useState } from "react";
 import { displayUrl } from "../../api/endpoints";
 import type { ImageDetail } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import type { CanvasView } from "../../canvas/view";
 import { ErrorState } from "../../design/states";
 import { dismissToast, toast } from "../../design/toast";
@@ -35,6 +36,12 @@ const HINTS: readonly KeyHint[] = [
   ["Enter", "done"],
 ];
 
+const LOOKING_HINTS: readonly KeyHint[] = [
+  ["Tab", "next line"],
+  ["N", "next image"],
+  ["P", "previous image"],
+];
+
 interface LabelWorkspaceProps {
   slug: string;
   session: LabelSession;
@@ -53,7 +60,9 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
   const enterImage = useCallback(() => regionRef.current?.focus({ preventScroll: true }), []);
   const stepJoin = useCallback((direction: 1 | -1) => focusJoin(panelRef.current, direction), []);
   const whenHistoryKnown = useHistory(image.id, store);
+  const { label: judges } = useRights();
   const actions = useLabelActions({
+    judges,
     slug,
     image,
     store,
@@ -121,7 +130,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
         {shown.keyList ? (
           <KeyList commands={COMMANDS} groups={COMMAND_GROUPS} onClose={control.toggleKeyList} />
         ) : null}
-        <StatusStrip hints={HINTS} scale={scale} actions={actions} />
+        <StatusStrip hints={judges ? HINTS : LOOKING_HINTS} scale={scale} actions={actions} />
       </div>
       {store && scene ? (
         <SidePanel

@@ -5,6 +5,7 @@ import { startRun } from "../../api/endpoints";
 import { asProblem } from "../../api/problem";
 import { keys } from "../../api/queries";
 import type { ImageDetail } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button, buttonClass } from "../../design/button";
 import { sentence } from "../../design/format";
 import { Icon, type IconName } from "../../design/icons";
@@ -20,6 +21,7 @@ interface NoticeProps {
 
 /** Why there is nothing to judge, and what to do about it; the image itself stays in view. */
 export function NoCandidates({ slug, image }: { slug: string; image: ImageDetail }) {
+  const { maintain, label: judges } = useRights();
   if (image.status !== "open") return null;
   if (image.error !== null && image.prelabel === "failed") {
     const { message, hint } = image.error;
@@ -27,7 +29,7 @@ export function NoCandidates({ slug, image }: { slug: string; image: ImageDetail
       <Notice
         icon="warning"
         title="Pre-labelling failed"
-        action={<StartRun slug={slug} image={image} only />}
+        action={maintain ? <StartRun slug={slug} image={image} only /> : null}
       >
         {sentence(message)} {hint ? sentence(hint) : null}
       </Notice>
@@ -47,17 +49,28 @@ export function NoCandidates({ slug, image }: { slug: string; image: ImageDetail
           icon="lines"
           title="No candidates found"
           action={
-            <Link className={buttonClass("default", true)} to={`/datasets/${slug}`}>
-              Run again with other parameters
-            </Link>
+            maintain ? (
+              <Link className={buttonClass("default", true)} to={`/datasets/${slug}`}>
+                Run again with other parameters
+              </Link>
+            ) : null
           }
         >
-          No line is long enough. <Keys keys={["Enter"]} /> marks the image as done.
+          No line is long enough.{" "}
+          {judges ? (
+            <>
+              <Keys keys={["Enter"]} /> marks the image as done.
+            </>
+          ) : null}
         </Notice>
       );
     default:
       return (
-        <Notice icon="lines" title="Not pre-labelled yet" action={<StartRun slug={slug} image={image} />}>
+        <Notice
+          icon="lines"
+          title="Not pre-labelled yet"
+          action={maintain ? <StartRun slug={slug} image={image} /> : null}
+        >
           A run finds the candidates that you then keep or reject.
         </Notice>
       );

@@ -1,4 +1,5 @@
 import type { ImageDetail } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Button, IconButton } from "../../design/button";
 import { formatQuantity } from "../../design/format";
 import { Icon } from "../../design/icons";
@@ -13,6 +14,7 @@ interface ReviewBannerProps {
 /** Says that the image isn't open any more. */
 export function ReviewBanner({ image, kept, onReopen }: ReviewBannerProps) {
   const done = image.status === "done";
+  const { label: judges } = useRights();
   return (
     <div className={`banner${done ? " banner--success" : ""}`} role="status">
       <Icon name={done ? "check" : "cross"} />
@@ -20,9 +22,11 @@ export function ReviewBanner({ image, kept, onReopen }: ReviewBannerProps) {
         <strong>{done ? "Done." : "Discarded."}</strong>{" "}
         {done ? `${formatQuantity(kept, "line")} kept.` : image.reason}
       </span>
-      <Button small tone="quiet" onClick={onReopen}>
-        Reopen
-      </Button>
+      {judges ? (
+        <Button small tone="quiet" onClick={onReopen}>
+          Reopen
+        </Button>
+      ) : null}
     </div>
   );
 }

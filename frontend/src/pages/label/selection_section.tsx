@@ -1,5 +1,6 @@
 import type { RefObject } from "react";
 import type { ImageDetail, SegmentFacts } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import type { Scene } from "../../canvas/scene";
 import { lineStyle, styleName } from "../../canvas/style";
 import type { CanvasView } from "../../canvas/view";
@@ -8,6 +9,7 @@ import { formatCount } from "../../design/format";
 import { copyLink } from "../../image_view/copy_link";
 import { Magnifier } from "../../image_view/magnifier";
 import { isBent, type LabelState, selectedPlace, verdictAt } from "../../labelling/label_state";
+import { LookingOnly } from "./looking_only";
 import { StageSection } from "./stage_section";
 import type { PageActions } from "./use_label_actions";
 import { addressOf } from "./use_segment_address";
@@ -27,6 +29,7 @@ interface SelectionSectionProps {
 /** The selected candidate: close-ups, facts and the verdict. */
 export function SelectionSection(props: SelectionSectionProps) {
   const { image, state, scene, bitmap, actions, viewRef, stages } = props;
+  const { label: judges } = useRights();
   const { selected } = state;
   const candidate = selected === null ? undefined : state.candidates[selected];
   const verdict = selected === null ? null : verdictAt(state, selected);
@@ -50,6 +53,7 @@ export function SelectionSection(props: SelectionSectionProps) {
         </span>
       </div>
       <VerdictButtons current={verdict} onJudge={actions.judge} />
+      {judges ? null : <LookingOnly />}
       {candidate === undefined || selected === null || verdict === null ? (
         <p className="muted panel-hint">Click a line or press Tab to select one.</p>
       ) : (
@@ -61,15 +65,17 @@ export function SelectionSection(props: SelectionSectionProps) {
             colour={lineStyle(styleName(verdict, isBent(state, selected))).colour}
           />
           <Facts candidate={candidate} />
-          <StageSection
-            imageId={image.id}
-            candidate={candidate}
-            index={selected}
-            scene={scene}
-            viewRef={viewRef}
-            open={stages}
-            onToggle={actions.toggleStages}
-          />
+          {judges ? (
+            <StageSection
+              imageId={image.id}
+              candidate={candidate}
+              index={selected}
+              scene={scene}
+              viewRef={viewRef}
+              open={stages}
+              onToggle={actions.toggleStages}
+            />
+          ) : null}
         </>
       )}
     </section>

@@ -1,5 +1,6 @@
 import type { RefObject } from "react";
 import type { ImageDetail } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import type { Scene } from "../../canvas/scene";
 import type { CanvasView } from "../../canvas/view";
 import { Button, IconButton } from "../../design/button";
@@ -43,6 +44,7 @@ export function SidePanel({
   panelRef,
 }: SidePanelProps) {
   const state = useLabelState(store);
+  const { label: judges } = useRights();
 
   function changeShown(shown: Shown): void {
     store.setShown(shown);
@@ -91,35 +93,67 @@ export function SidePanel({
           ready={bitmap !== null}
         />
       </div>
-      <footer className="image-panel__footer">
-        <IconButton
-          icon="undo"
-          label="Undo"
-          keys={["Z"]}
-          side="up"
-          tone="default"
-          disabled={state.history.done.length === 0}
-          onClick={actions.undo}
-        />
-        <IconButton
-          icon="redo"
-          label="Redo"
-          keys={["Shift", "Z"]}
-          side="up"
-          tone="default"
-          disabled={state.history.undone.length === 0}
-          onClick={actions.redo}
-        />
-        {state.counts.undecided > 0 ? (
-          <Button className="image-panel__wide" onClick={actions.rejectUndecided}>
-            Reject {formatCount(state.counts.undecided)} left <Keys keys={["R"]} />
-          </Button>
-        ) : (
-          <Button tone="primary" className="image-panel__wide" onClick={actions.finish}>
-            {image.status === "open" ? "Image done" : "Next image"} <Keys keys={["Enter"]} />
-          </Button>
-        )}
-      </footer>
+      {judges ? (
+        <JudgeFooter store={store} image={image} actions={actions} />
+      ) : (
+        <LookFooter image={image} actions={actions} />
+      )}
     </aside>
+  );
+}
+
+interface FooterProps {
+  image: ImageDetail;
+  actions: PageActions;
+}
+
+function JudgeFooter({ store, image, actions }: FooterProps & { store: LabelStore }) {
+  const state = useLabelState(store);
+  return (
+    <footer className="image-panel__footer">
+      <IconButton
+        icon="undo"
+        label="Undo"
+        keys={["Z"]}
+        side="up"
+        tone="default"
+        disabled={state.history.done.length === 0}
+        onClick={actions.undo}
+      />
+      <IconButton
+        icon="redo"
+        label="Redo"
+        keys={["Shift", "Z"]}
+        side="up"
+        tone="default"
+        disabled={state.history.undone.length === 0}
+        onClick={actions.redo}
+      />
+      {state.counts.undecided > 0 ? (
+        <Button className="image-panel__wide" onClick={actions.rejectUndecided}>
+          Reject {formatCount(state.counts.undecided)} left <Keys keys={["R"]} />
+        </Button>
+      ) : (
+        <Button tone="primary" className="image-panel__wide" onClick={actions.finish}>
+          {image.status === "open" ? "Image done" : "Next image"} <Keys keys={["Enter"]} />
+        </Button>
+      )}
+    </footer>
+  );
+}
+
+/** Of whoever can't judge: there is nothing to do but go on. */
+function LookFooter({ image, actions }: FooterProps) {
+  return (
+    <footer className="image-panel__footer">
+      <Button
+        tone="primary"
+        className="image-panel__wide"
+        disabled={image.next_id === null}
+        onClick={() => actions.goToImage(1)}
+      >
+        Next image <Keys keys={["N"]} />
+      </Button>
+    </footer>
   );
 }

@@ -13,6 +13,7 @@ import { describeReplay } from "../../labelling/history";
 import type { LabelStore } from "../../labelling/label_store";
 import { outbox } from "../../labelling/outbox_start";
 import { readPreferences, writePreferences } from "../../labelling/preferences";
+import { LOOKING_ONLY } from "./looking_only";
 
 /** Have to go with their image: undo never reaches into another one. */
 export const REJECTED_TOAST = "reject-undecided";
@@ -20,6 +21,8 @@ export const HISTORY_TOAST = "history";
 const HISTORY_TOAST_DURATION = 2_500;
 
 interface ActionParts {
+  /** Whether verdicts may be given at all. */
+  judges: boolean;
   slug: string;
   image: ImageDetail | undefined;
   store: LabelStore | null;
@@ -50,7 +53,18 @@ export interface PageActions extends LabelActions {
 
 /** What keys and buttons do, on this page's store, view and router. */
 export function useLabelActions(parts: ActionParts): PageActions {
-  const { slug, image, store, viewRef, leaveImage, enterImage, stepJoin, overlays, whenHistoryKnown } = parts;
+  const {
+    judges,
+    slug,
+    image,
+    store,
+    viewRef,
+    leaveImage,
+    enterImage,
+    stepJoin,
+    overlays,
+    whenHistoryKnown,
+  } = parts;
   const navigate = useNavigate();
   const queryClient = useQueryClient();
   return useMemo(() => {
@@ -145,7 +159,7 @@ export function useLabelActions(parts: ActionParts): PageActions {
       else leaveImage();
     }
 
-    return {
+    const actions: PageActions = {
       step: (direction) => store?.step(direction),
       judge: (verdict) => store?.judgeSelected(verdict),
       undo: () => whenHistoryKnown(() => replay("undo")),
@@ -164,7 +178,9 @@ export function useLabelActions(parts: ActionParts): PageActions {
       pan: (dx, dy) => viewRef.current?.panStep(dx, dy),
       setReview,
     };
+    return judges ? actions : { ...actions, ...lookingOnly(() => goToImage(1)) };
   }, [
+    judges,
     slug,
     image,
     store,
@@ -177,4 +193,23 @@ export function useLabelActions(parts: ActionParts): PageActions {
     navigate,
     queryClient,
   ]);
+}
+
+/** What takes the place of all that changes something, for whoever may only look. */
+function lookingOnly(next: () => void): Partial<PageActions> {
+  const refuse = () => toast({ key: "looking-only", message: LOOKING_ONLY });
+  return {
+    judge: refuse,
+    undo: refuse,
+    redo: refuse,
+    rejectUndecided: refuse,
+    discard: refuse,
+    toggleStages: refuse,
+    stepJoin: () => undefined,
+    finish: next,
+    setReview: async () => {
+      refuse();
+      return false;
+    },
+  };
 }

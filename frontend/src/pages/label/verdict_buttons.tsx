@@ -1,6 +1,8 @@
 import type { Verdict } from "../../api/types";
+import { useRights } from "../../api/use_rights";
 import { Icon, type IconName } from "../../design/icons";
 import { Keys } from "../../design/kbd";
+import { LOOKING_ONLY } from "./looking_only";
 import "./verdict_buttons.css";
 
 const BUTTONS: readonly { verdict: Verdict; label: string; caps: string; icon: IconName }[] = [
@@ -16,8 +18,13 @@ interface VerdictButtonsProps {
 }
 
 export function VerdictButtons({ current, onJudge }: VerdictButtonsProps) {
+  const { label: judges } = useRights();
   return (
-    <fieldset className="verdict-buttons" disabled={current === null}>
+    <fieldset
+      className="verdict-buttons"
+      disabled={current === null || !judges}
+      title={judges ? undefined : LOOKING_ONLY}
+    >
       <legend className="visually-hidden">Verdict on the selected candidate</legend>
       {BUTTONS.map(({ verdict, label, caps, icon }) => (
         <button

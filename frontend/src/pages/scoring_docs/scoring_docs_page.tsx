@@ -1,5 +1,6 @@
 import { Link } from "react-router";
 import { PageFrame } from "../../design/page_frame";
+import { TableScroll } from "../../design/table_scroll";
 import { METRIC_GROUPS } from "../metric_groups";
 import { CasePicture } from "./case_picture";
 import { CASES, type ScoringCase } from "./cases";
@@ -91,7 +92,7 @@ function Metrics() {
   return (
     <section className="scoring-docs__section" aria-labelledby="metrics">
       <h2 id="metrics">Metrics</h2>
-      <div className="card table-scroll">
+      <TableScroll label="Metrics" className="card">
         <table className="table">
           <thead>
             <tr>
@@ -119,7 +120,7 @@ function Metrics() {
             </tbody>
           ))}
         </table>
-      </div>
+      </TableScroll>
     </section>
   );
 }

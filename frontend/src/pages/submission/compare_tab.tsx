@@ -1,14 +1,16 @@
 import { useQuery } from "@tanstack/react-query";
 import { Link, useSearchParams } from "react-router";
-import { boardQuery, comparisonQuery } from "../../api/board_queries";
+import { comparisonQuery } from "../../api/board_queries";
 import type { Comparison, Difference, Submission } from "../../api/board_types";
 import { buttonClass } from "../../design/button";
 import { formatCount } from "../../design/format";
 import { Icon } from "../../design/icons";
 import { EmptyState, ErrorState } from "../../design/states";
-import { METRIC_GROUPS, type MetricGroup } from "../metric_groups";
+import { TableScroll } from "../../design/table_scroll";
+import type { MetricGroup } from "../metric";
+import { METRIC_GROUPS } from "../metric_groups";
 import { differenceText, intervalText, isBetter, metricText } from "../metrics";
-import { useOwnSubmissions } from "../submit/use_own_submissions";
+import { useComparableSubmissions } from "../use_comparable_submissions";
 import { turned } from "./difference";
 
 /** Paired differences to another submission on the same images. */
@@ -16,7 +18,7 @@ export function CompareTab({ submission }: { submission: Submission }) {
   const [parameters, setParameters] = useSearchParams();
   const wanted = Number(parameters.get("with"));
   const other = Number.isInteger(wanted) && wanted > 0 && wanted !== submission.id ? wanted : null;
-  const choices = useChoices(submission);
+  const { pending, submissions: choices } = useComparableSubmissions(submission);
   const choose = (id: string) => {
     const next = new URLSearchParams(parameters);
     if (id === "") next.delete("with");
@@ -33,9 +35,9 @@ export function CompareTab({ submission }: { submission: Submission }) {
           <select className="input" value={other ?? ""} onChange={(event) => choose(event.target.value)}>
             <option value="">Choose a submission</option>
             {other !== null && !known ? <option value={other}>Submission {other}</option> : null}
-            {choices.map(({ id, text }) => (
+            {choices.map(({ id, method, label }) => (
               <option key={id} value={id}>
-                {text}
+                {method}, {label ?? `submission ${id}`}
               </option>
             ))}
           </select>
@@ -44,7 +46,7 @@ export function CompareTab({ submission }: { submission: Submission }) {
       {other === null ? (
         <EmptyState
           icon="compare"
-          title={choices.length === 0 ? "Nothing to compare with yet" : "Compare with another"}
+          title={choices.length === 0 && !pending ? "Nothing to compare with yet" : "Compare with another"}
         >
           Both are scored on the same images, so the interval of their difference is far narrower than the
           intervals of the two.
@@ -56,22 +58,6 @@ export function CompareTab({ submission }: { submission: Submission }) {
   );
 }
 
-/** What stands on the board, and one's own others. */
-function useChoices(submission: Submission): { id: number; text: string }[] {
-  const board = useQuery(boardQuery(submission.split.slug, null));
-  const own = useOwnSubmissions(submission.split.slug);
-  const choices = new Map<number, string>();
-  for (const { submission_id, method, label } of board.data?.rows ?? []) {
-    if (submission_id !== null) choices.set(submission_id, label ? `${method.name}, ${label}` : method.name);
-  }
-  for (const { id, method, label, status } of own.data?.pages.flatMap(({ items }) => items) ?? []) {
-    if (status === "scored" && !choices.has(id))
-      choices.set(id, `${method.name}, ${label ?? `submission ${id}`}`);
-  }
-  choices.delete(submission.id);
-  return [...choices].map(([id, text]) => ({ id, text }));
-}
-
 function ComparisonView({ submission, other }: { submission: Submission; other: number }) {
   const comparison = useQuery(comparisonQuery(submission.id, other));
   if (comparison.isError) return <ErrorState error={comparison.error} onRetry={() => comparison.refetch()} />;
@@ -81,7 +67,7 @@ function ComparisonView({ submission, other }: { submission: Submission; other: 
   return (
     <>
       <ImagesShare comparison={comparison.data} />
-      <div className="table-scroll">
+      <TableScroll label="Differences">
         <table className="table compare">
           <thead>
             <tr>
@@ -103,7 +89,7 @@ function ComparisonView({ submission, other }: { submission: Submission; other: 
             <Group key={group.title} group={group} differences={comparison.data.metrics} />
           ))}
         </table>
-      </div>
+      </TableScroll>
       <p>
         <Link className={buttonClass()} to={`/submissions/${submission.id}?tab=images&with=${other}`}>
           <Icon name="images" /> Images, with both in the viewer

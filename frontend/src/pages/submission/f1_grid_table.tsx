@@ -1,4 +1,5 @@
 import type { F1Grid } from "../../api/board_types";
+import { TableScroll } from "../../design/table_scroll";
 import { metricText } from "../metrics";
 
 /** F1 over tolerances and overlaps: the numbers that mean F1 is the mean of. */
@@ -9,7 +10,7 @@ export function F1GridTable({ grid }: { grid: F1Grid }) {
         <h2 id="grid-title">What mean F1 is the mean of</h2>
         <span className="muted">F1 by tolerance (px) and by the line IoU that is asked for</span>
       </header>
-      <div className="table-scroll">
+      <TableScroll label="F1 over distances and overlaps">
         <table className="f1-grid">
           <thead>
             <tr>
@@ -42,7 +43,7 @@ export function F1GridTable({ grid }: { grid: F1Grid }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </TableScroll>
       <p className="muted">The framed number is the one that the rank goes by.</p>
     </section>
   );

@@ -49,7 +49,7 @@ export function ImagesTab({ submission }: { submission: Submission }) {
           submission={submission.id}
           items={items}
           total={total}
-          query={imageQuery(sort, parameters.get("with"))}
+          query={imageQuery(sort, search, parameters.get("with"))}
           onEnd={() => {
             if (query.hasNextPage && !query.isFetchingNextPage) void query.fetchNextPage();
           }}
@@ -59,9 +59,10 @@ export function ImagesTab({ submission }: { submission: Submission }) {
   );
 }
 
-/** What the viewer's address keeps of this page: its order, and with whom to compare. */
-function imageQuery(sort: string, other: string | null): string {
+/** What the viewer's address keeps of this page: its list, and with whom to compare. */
+function imageQuery(sort: string, search: string, other: string | null): string {
   const parameters = new URLSearchParams({ sort });
+  if (search !== "") parameters.set("search", search);
   if (other) parameters.set("with", other);
   return `?${parameters}`;
 }

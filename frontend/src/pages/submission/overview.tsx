@@ -2,6 +2,7 @@ import type { Submission } from "../../api/board_types";
 import { IntervalBar } from "../../charts/interval_bar";
 import { formatDate } from "../../design/format";
 import { EmptyState } from "../../design/states";
+import { TableScroll } from "../../design/table_scroll";
 import { intervalText, metricOf, metricText } from "../metrics";
 import { ErrorTypes } from "./error_types_chart";
 import { F1GridTable } from "./f1_grid_table";
@@ -54,7 +55,7 @@ function Provenance({ submission }: { submission: Submission }) {
   return (
     <section className="section card" aria-labelledby="provenance-title">
       <h2 id="provenance-title">Under what these numbers stand</h2>
-      <div className="table-scroll">
+      <TableScroll label="Under what these numbers stand">
         <table className="table">
           <thead>
             <tr>
@@ -89,7 +90,7 @@ function Provenance({ submission }: { submission: Submission }) {
             ))}
           </tbody>
         </table>
-      </div>
+      </TableScroll>
       <dl className="provenance">
         {submission.truth_hash ? (
           <div>

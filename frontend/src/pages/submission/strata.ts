@@ -1,6 +1,8 @@
 /** Parts of a result: strata of lines, and types of errors. */
 
 import type { Measured } from "../../api/board_types";
+import { capitalized } from "../../design/format";
+import { type ErrorType, FALSE_NEGATIVES, FALSE_POSITIVES } from "../error_type_names";
 
 export interface Stratum {
   name: string;
@@ -48,26 +50,17 @@ export interface ErrorsOfSide {
   errors: ErrorCount[];
 }
 
-const FALSE_POSITIVES: [string, string, string][] = [
-  ["background", "Background", "No label is near."],
-  ["offset", "Offset", "Along a label, but too far beside it."],
-  ["wrong_angle", "Wrong angle", "Near a label, but turned."],
-  ["over_extended", "Over-extended", "Runs on far beyond its label."],
-  ["fragment", "Fragment", "A piece of a label, too short to count."],
-  ["duplicate", "Duplicate", "A label that another prediction has found."],
-];
-
-const FALSE_NEGATIVES: [string, string, string][] = [
-  ["missed", "Missed", "Nothing was found there."],
-  ["fragmented", "Fragmented", "Found in pieces, none of them long enough."],
-];
-
 /** Numbers of errors by type, most frequent first. */
 export function readErrorTypes(given: unknown): ErrorsOfSide[] {
   if (!isRecord(given)) return [];
-  const side = (title: string, types: readonly [string, string, string][]): ErrorsOfSide => {
+  const side = (title: string, types: readonly ErrorType[]): ErrorsOfSide => {
     const errors = types
-      .map(([type, name, meaning]) => ({ type, name, meaning, count: Number(given[type] ?? 0) }))
+      .map(({ type, name, meaning }) => ({
+        type,
+        name: capitalized(name),
+        meaning,
+        count: Number(given[type] ?? 0),
+      }))
       .sort((a, b) => b.count - a.count);
     return { title, total: errors.reduce((sum, { count }) => sum + count, 0), errors };
   };

@@ -1,6 +1,8 @@
 import type { Totals } from "../../api/board_types";
 import { IntervalBar } from "../../charts/interval_bar";
-import { METRIC_GROUPS, type MetricGroup } from "../metric_groups";
+import { TableScroll } from "../../design/table_scroll";
+import type { MetricGroup } from "../metric";
+import { METRIC_GROUPS } from "../metric_groups";
 import { intervalText, metricText } from "../metrics";
 
 /** Every metric with its interval and what it means. */
@@ -15,7 +17,7 @@ export function TotalsTable({ totals }: { totals: Totals }) {
         <h2 id="totals-title">All metrics</h2>
         <span className="muted">95 % intervals, bootstrap over images</span>
       </header>
-      <div className="table-scroll">
+      <TableScroll label="All metrics">
         <table className="table totals">
           <thead>
             <tr>
@@ -34,7 +36,7 @@ export function TotalsTable({ totals }: { totals: Totals }) {
             <Group key={group.title} group={group} totals={totals} />
           ))}
         </table>
-      </div>
+      </TableScroll>
     </section>
   );
 }

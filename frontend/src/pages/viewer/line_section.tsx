@@ -3,8 +3,9 @@ import { Button, IconButton } from "../../design/button";
 import { Keys } from "../../design/kbd";
 import { LineMark } from "../../image_view/line_mark";
 import { Magnifier } from "../../image_view/magnifier";
+import { errorTypeOf } from "../error_type_names";
 import { LAYER_NAMES } from "./layers";
-import { degrees, errorText, lineTitle, pixels, ratio } from "./match_text";
+import { degrees, lineTitle, pixels, ratio } from "./match_text";
 import type { MatchedImage, MatchedLine } from "./matched_image";
 
 /** Whether the selected line can be sent to the review queue, and whether it has been. */
@@ -35,7 +36,7 @@ export function LineSection(props: LineSectionProps) {
     );
   }
   const style = MATCH_STYLES[palette].plain[line.layer];
-  const error = errorText(line.errorType);
+  const error = errorTypeOf(line.errorType);
   const partner = line.partner === null ? undefined : image.lines[line.partner];
   return (
     <section className="panel-section" aria-label="Selected line">

@@ -1,15 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { degrees, describeLine, errorText, lineTitle, pixels } from "./match_text";
+import { degrees, describeLine, lineTitle, pixels } from "./match_text";
 import { matched } from "./test_images";
 
 describe("texts of scored lines", () => {
-  it("name errors however they are spelled", () => {
-    expect(errorText("wrong_angle")?.name).toBe("wrong angle");
-    expect(errorText("over-extended")?.name).toBe("over-extended");
-    expect(errorText("something_new")).toEqual({ name: "something new", why: "" });
-    expect(errorText(null)).toBeNull();
-  });
-
   it("count from 1", () => {
     expect(lineTitle({ kind: "prediction", name: "p12" })).toBe("Prediction 13");
   });

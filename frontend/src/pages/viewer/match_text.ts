@@ -1,25 +1,8 @@
 /** What is said of scored lines. */
 
+import { errorTypeOf } from "../error_type_names";
 import { LAYER_NAMES } from "./layers";
 import type { MatchedLine } from "./matched_image";
-
-const ERROR_TYPES: Readonly<Record<string, { name: string; why: string }>> = {
-  duplicate: { name: "duplicate", why: "Another prediction counts for its label already." },
-  fragment: { name: "fragment", why: "It covers too small a part of its label." },
-  "over-extended": { name: "over-extended", why: "It runs on beyond its label, or over several labels." },
-  offset: { name: "offset", why: "It lies beside a label, too far away." },
-  "wrong-angle": { name: "wrong angle", why: "It lies near a label, but turned." },
-  background: { name: "background", why: "Nothing like it was labelled." },
-  missed: { name: "missed", why: "Predictions cover less than half of it." },
-  fragmented: { name: "fragmented", why: "Pieces of it were found, none of them enough alone." },
-};
-
-/** The kind of error in words, and why the line counts as one; null where it isn't an error of a known kind. */
-export function errorText(type: string | null): { name: string; why: string } | null {
-  if (type === null) return null;
-  const key = type.replaceAll("_", "-").replaceAll(" ", "-");
-  return ERROR_TYPES[key] ?? { name: type.replaceAll("_", " "), why: "" };
-}
 
 /** "Prediction 13" or "Label 4": people count from 1. */
 export function lineTitle({ kind, name }: Pick<MatchedLine, "kind" | "name">): string {
@@ -43,7 +26,7 @@ export function describeLine(line: MatchedLine | null, place: number | null, err
   if (line === null) return "No line selected";
   const parts = [`${LAYER_NAMES[line.layer].one}, ${lineTitle(line).toLowerCase()}`];
   if (place !== null) parts.push(`error ${place} of ${errors}`);
-  const error = errorText(line.errorType);
+  const error = errorTypeOf(line.errorType);
   if (error !== null) parts.push(error.name);
   parts.push(`${Math.round(line.length)} pixels long`);
   if (line.liou !== null) parts.push(`L I O U ${line.liou.toFixed(2)}`);

@@ -8,9 +8,10 @@ import type { Viewport } from "../../canvas/viewport";
 import { HoverReadout } from "../../image_view/hover_readout";
 import { ImageCanvas, type PointerPlace } from "../../image_view/image_canvas";
 import { LineMark } from "../../image_view/line_mark";
+import { errorTypeOf } from "../error_type_names";
 import type { ShownLayers } from "./layers";
 import { LAYER_NAMES } from "./layers";
-import { degrees, errorText, lineTitle, pixels, ratio } from "./match_text";
+import { degrees, lineTitle, pixels, ratio } from "./match_text";
 import { lineNamed, type MatchedImage, type MatchedLine } from "./matched_image";
 
 interface PaneProps {
@@ -122,7 +123,7 @@ function LineReadout({ image, line, palette }: LineReadoutProps) {
   return (
     <>
       <LineMark style={MATCH_STYLES[palette].plain[layer]} />
-      <span>{errorText(errorType)?.name ?? LAYER_NAMES[layer].one.toLowerCase()}</span>
+      <span>{errorTypeOf(errorType)?.name ?? LAYER_NAMES[layer].one.toLowerCase()}</span>
       <span className="numeric">{pixels(length, 0)}</span>
       {liou === null || other === undefined ? null : (
         <span className="numeric">

@@ -2,17 +2,17 @@
 
 import { type QueryClient, queryOptions, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useEffect } from "react";
-import { getScoredImage, getScoredPoints } from "../../api/viewer_endpoints";
+import { ALL_BY_NAME, getScoredImage, getScoredPoints, type ImageList } from "../../api/viewer_endpoints";
 import { decodePolylines } from "../../canvas/decode";
 import { imageLoader } from "../../image_view/use_image_bitmap";
 import { type MatchedImage, makeMatchedImage } from "./matched_image";
 
-export const matchedImageQuery = (submission: number, image: number, sort: string | null) =>
+export const matchedImageQuery = (submission: number, image: number, list: ImageList) =>
   queryOptions({
-    queryKey: ["submissions", submission, "scored-image", image, sort],
+    queryKey: ["submissions", submission, "scored-image", image, list],
     queryFn: async (): Promise<MatchedImage> => {
       const [detail, points] = await Promise.all([
-        getScoredImage(submission, image, sort),
+        getScoredImage(submission, image, list),
         getScoredPoints(submission, image),
       ]);
       return makeMatchedImage(detail, decodePolylines(points));
@@ -22,50 +22,46 @@ export const matchedImageQuery = (submission: number, image: number, sort: strin
   });
 
 /** @param enabled Whether the image may be asked for at all. */
-export function useMatchedImage(
-  submission: number | null,
-  image: number,
-  sort: string | null,
-  enabled: boolean,
-) {
+export function useMatchedImage(submission: number | null, image: number, list: ImageList, enabled: boolean) {
   return useQuery({
-    ...matchedImageQuery(submission ?? 0, image, sort),
+    ...matchedImageQuery(submission ?? 0, image, list),
     enabled: enabled && submission !== null,
   });
 }
 
 /** Fetches the neighbours once the image itself is there: they must not have to share the server. */
 export function usePrefetchedNeighbours(
-  submissions: readonly number[],
+  submission: number,
+  other: number | null,
   image: MatchedImage | undefined,
-  sort: string | null,
+  { sort, search }: ImageList,
 ): void {
   const queryClient = useQueryClient();
-  const wanted = submissions.join();
   useEffect(() => {
     if (image === undefined) return;
     let current = true;
     const run = async () => {
       await imageLoader.load(image.detail.display).catch(() => undefined);
       for (const neighbour of [image.detail.next, image.detail.previous]) {
-        for (const submission of wanted.split(",").map(Number)) {
-          if (current && neighbour !== null) await prefetch(queryClient, submission, neighbour, sort);
-        }
+        if (current && neighbour !== null)
+          await prefetch(queryClient, submission, neighbour, { sort, search });
+        if (current && neighbour !== null && other !== null)
+          await prefetch(queryClient, other, neighbour, ALL_BY_NAME);
       }
     };
     run();
     return () => {
       current = false;
     };
-  }, [queryClient, wanted, image, sort]);
+  }, [queryClient, submission, other, image, sort, search]);
 }
 
 async function prefetch(
   queryClient: QueryClient,
   submission: number,
   image: number,
-  sort: string | null,
+  list: ImageList,
 ): Promise<void> {
-  const found = await queryClient.fetchQuery(matchedImageQuery(submission, image, sort)).catch(() => null);
+  const found = await queryClient.fetchQuery(matchedImageQuery(submission, image, list)).catch(() => null);
   if (found !== null) await imageLoader.prefetch(found.detail.display, found.detail);
 }

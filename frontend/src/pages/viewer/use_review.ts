@@ -2,6 +2,7 @@ import { useState } from "react";
 import { useNavigate } from "react-router";
 import { getImage } from "../../api/endpoints";
 import { asProblem } from "../../api/problem";
+import { useRights } from "../../api/use_rights";
 import { sendToReview } from "../../api/viewer_endpoints";
 import { toast } from "../../design/toast";
 import type { ReviewState } from "./line_section";
@@ -25,10 +26,15 @@ export function useReview({ submission, imageId, image, line }: ReviewParts) {
   const [sent, setSent] = useState<Sent>({});
   const key = `${submission}/${imageId}/${line?.name}`;
   const target = image?.detail.review_target ?? null;
-  const possible = line?.layer === "fp" && target !== null;
+  const { label: judges } = useRights();
+  const possible = judges && line?.layer === "fp" && target !== null;
   const state: ReviewState = possible ? (sent[key] ?? "possible") : "impossible";
 
   async function send(): Promise<void> {
+    if (!judges) {
+      toast({ key: "review", message: "Sending lines to review needs the role annotator" });
+      return;
+    }
     if (line === null || line.layer !== "fp") {
       toast({ key: "review", message: "Only a false positive can be sent to review" });
       return;

@@ -2,6 +2,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useEffect, useMemo, useReducer } from "react";
 import { submissionQuery } from "../../api/board_queries";
 import type { Submission } from "../../api/board_types";
+import { ALL_BY_NAME, type ImageList } from "../../api/viewer_endpoints";
 import { useImageBitmap } from "../../image_view/use_image_bitmap";
 import { differenceOf, type Side } from "./difference";
 import { errorSequence } from "./errors";
@@ -23,7 +24,8 @@ export function useViewer(submission: Submission, imageId: number) {
     startState(id, readAddress(window.location.search), readPreferences(localStorage)),
   );
   // The address of the images goes through history; what is chosen on one of them doesn't.
-  const { sort } = readAddress(window.location.search);
+  const { sort, search } = readAddress(window.location.search);
+  const list: ImageList = { sort, search };
   useEffect(() => {
     dispatch({ type: "opened", imageId, segment: readAddress(window.location.search).segment });
   }, [imageId]);
@@ -31,11 +33,10 @@ export function useViewer(submission: Submission, imageId: number) {
   useEffect(() => writePreferences(localStorage, { order, palette }), [order, palette]);
 
   const other = useQuery({ ...submissionQuery(state.other ?? 0), enabled: state.other !== null });
-  const a = useMatchedImage(submission.id, imageId, sort, true);
-  const b = useMatchedImage(state.other, imageId, null, state.other !== null);
+  const a = useMatchedImage(submission.id, imageId, list, true);
+  const b = useMatchedImage(state.other, imageId, ALL_BY_NAME, state.other !== null);
   const images: Readonly<Record<Side, MatchedImage | undefined>> = { a: a.data, b: b.data };
-  const ids = state.other === null ? [submission.id] : [submission.id, state.other];
-  usePrefetchedNeighbours(ids, a.data, sort);
+  usePrefetchedNeighbours(submission.id, state.other, a.data, list);
   const bitmap = useImageBitmap(a.data?.detail.display ?? null, a.data?.detail ?? NO_SIZE);
 
   const current = images[state.side];
@@ -49,7 +50,7 @@ export function useViewer(submission: Submission, imageId: number) {
     () => (a.data !== undefined && b.data !== undefined ? differenceOf(a.data, b.data) : null),
     [a.data, b.data],
   );
-  const query = queryOf(state, selected, sort);
+  const query = queryOf(state, selected, list);
   useViewerAddress(query);
 
   return {
@@ -64,7 +65,7 @@ export function useViewer(submission: Submission, imageId: number) {
       a.refetch();
       if (state.other !== null) b.refetch();
     },
-    sort,
+    list,
     bitmap,
     current,
     selected,
@@ -76,12 +77,12 @@ export function useViewer(submission: Submission, imageId: number) {
     /** What the address says of the present view. */
     query,
     /** What is taken along to another image. */
-    carried: queryOf(state, NOTHING_SELECTED, sort),
+    carried: queryOf(state, NOTHING_SELECTED, list),
   };
 }
 
-function queryOf(state: ViewerState, selected: ViewerState["selected"], sort: string | null): string {
+function queryOf(state: ViewerState, selected: ViewerState["selected"], list: ImageList): string {
   const { shown, other, side, order, sideBySide, differences } = state;
   const segment = selected[side];
-  return writeAddress({ sort, other, shown, segment, side, order, sideBySide, differences });
+  return writeAddress({ ...list, other, shown, segment, side, order, sideBySide, differences });
 }

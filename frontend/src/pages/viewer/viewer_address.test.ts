@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { SHOWN_AT_FIRST } from "./layers";
-import { readAddress, viewerPath, writeAddress } from "./viewer_address";
+import { readAddress, submissionPath, viewerPath, writeAddress } from "./viewer_address";
 
 describe("the viewer's address", () => {
   it("is short where nothing was chosen", () => {
@@ -10,11 +10,18 @@ describe("the viewer's address", () => {
 
   it.each([
     "?segment=p12",
-    "?sort=-f1&order=near&show=fp-fn&segment=l3",
+    "?sort=-f1&search=night+5&order=near&show=fp-fn&segment=l3",
     "?show=none",
     "?with=8&side=b&view=both&differences=1&segment=p0",
   ])("comes back as it was: %s", (query) => {
     expect(writeAddress(readAddress(query))).toBe(query);
+  });
+
+  it("leads back to the list that one came from", () => {
+    expect(submissionPath(3, readAddress(""))).toBe("/submissions/3");
+    expect(submissionPath(3, readAddress("?sort=-fp&search=night"))).toBe(
+      "/submissions/3?tab=images&sort=-fp&search=night",
+    );
   });
 
   it("leaves out what only a comparison has", () => {
@@ -24,6 +31,7 @@ describe("the viewer's address", () => {
   it("ignores what it doesn't know", () => {
     expect(readAddress("?segment=x9&with=me&order=wild&show=fp-huh")).toEqual({
       sort: null,
+      search: null,
       other: null,
       shown: { tp: false, fp: true, fn: false, ignored: false, found: false },
       segment: null,

@@ -1,12 +1,12 @@
 /** What the address says of the view: with whom to compare, what is shown, which line is selected. */
 
+import type { ImageList } from "../../api/viewer_endpoints";
 import type { Side } from "./difference";
 import { DEFAULT_ORDER, ERROR_ORDERS, type ErrorOrder } from "./errors";
 import { readLayers, type ShownLayers, writeLayers } from "./layers";
 
-export interface ViewerAddress {
-  /** Order of the images, as on the submission page. */
-  readonly sort: string | null;
+/** Images are listed as on the submission page. */
+export interface ViewerAddress extends ImageList {
   /** The submission to compare with. */
   readonly other: number | null;
   readonly shown: ShownLayers;
@@ -26,6 +26,7 @@ export function readAddress(search: string): ViewerAddress {
   const order = parameters.get("order");
   return {
     sort: parameters.get("sort") || null,
+    search: parameters.get("search") || null,
     other: /^\d+$/.test(other) ? Number(other) : null,
     shown: readLayers(parameters.get("show")),
     segment: /^[pl]\d+$/.test(segment) ? segment : null,
@@ -41,6 +42,7 @@ export function writeAddress(address: ViewerAddress): string {
   const parameters = new URLSearchParams();
   const set = (name: string, value: string | null) => value !== null && parameters.set(name, value);
   set("sort", address.sort);
+  set("search", address.search);
   set("order", address.order === DEFAULT_ORDER ? null : address.order);
   set("show", writeLayers(address.shown));
   if (address.other !== null) {
@@ -54,10 +56,14 @@ export function writeAddress(address: ViewerAddress): string {
   return text === "" ? "" : `?${text}`;
 }
 
-/** The submission's page; with the images in their order, where one came from there. */
-export function submissionPath(submission: number, sort: string | null): string {
+/** The submission's page; with the list of images that one came from, if one did. */
+export function submissionPath(submission: number, { sort, search }: ImageList): string {
   const page = `/submissions/${submission}`;
-  return sort === null ? page : `${page}?${new URLSearchParams({ tab: "images", sort })}`;
+  if (sort === null && search === null) return page;
+  const parameters = new URLSearchParams({ tab: "images" });
+  if (sort !== null) parameters.set("sort", sort);
+  if (search !== null) parameters.set("search", search);
+  return `${page}?${parameters}`;
 }
 
 export function viewerPath(submission: number, image: number, query = ""): string {

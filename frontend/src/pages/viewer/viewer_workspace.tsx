@@ -82,7 +82,7 @@ export function ViewerWorkspace({ submission, imageId }: ViewerWorkspaceProps) {
       crumbs={[
         { label: "Leaderboards", to: "/splits" },
         { label: split.name, to: `/splits/${split.slug}` },
-        { label: submissionName(submission), to: submissionPath(submission.id, viewer.sort) },
+        { label: submissionName(submission), to: submissionPath(submission.id, viewer.list) },
         { label: name === undefined ? "Image" : shortName(name) },
       ]}
     >
