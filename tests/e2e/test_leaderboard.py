@@ -126,6 +126,18 @@ def test_a_maintainer_freezes_a_split_and_finds_its_empty_board(page: Page, serv
     expect(page.get_by_role("link", name="Harbour")).to_be_visible()
 
 
+def test_a_dataset_that_came_labelled_says_so(page: Page, server: Any) -> None:
+    page.goto(server.address)
+    card = page.get_by_role("listitem").filter(has=page.get_by_role("link", name="streets"))
+    expect(card).to_contain_text("3 images · 12 labels")
+    expect(card.get_by_text("Labelled", exact=True)).to_be_visible()
+    page.goto(f"{server.address}/datasets/streets")
+    expect(page.get_by_role("main")).to_contain_text("3 images · 12 labels")
+    expect(page.get_by_role("list", name="Images").get_by_role("link").first).to_have_accessible_name(
+        re.compile("^alley, .*, 4 labels$")
+    )
+
+
 def test_results_are_checked_scored_and_looked_at(page: Page, board: Any) -> None:
     page.goto(f"{board.address}/submissions/{submissions(board)['Sharp']['id']}")
     expect(page.get_by_role("heading", name="Sharp")).to_be_visible()

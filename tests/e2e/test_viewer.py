@@ -255,7 +255,34 @@ def test_keys_show_and_hide_the_layers(page: Page, scored: Scored) -> None:
     # What is hidden isn't visited.
     page.keyboard.press("j")
     selection(page).to_contain_text("False positive")
-    page.wait_for_url(re.compile(r"show=tp-fp-ignored"))
+    page.wait_for_url(re.compile(r"show=tp-fp$"))
+
+
+def test_ignored_lines_are_shown_on_request(page: Page, scored: Scored) -> None:
+    open_viewer(page, scored.address("a"))
+    ignored = page.get_by_role("button", name="Show ignored")
+    expect(ignored).to_have_attribute("aria-pressed", "false")
+    page.keyboard.press("4")
+    expect(ignored).to_have_attribute("aria-pressed", "true")
+    page.wait_for_url(re.compile(r"show=tp-fp-fn-ignored$"))
+    page.reload()
+    expect(ignored).to_have_attribute("aria-pressed", "true")
+    page.keyboard.press("4")
+    expect(page).to_have_url(scored.address("a"))
+
+
+@pytest.mark.parametrize("place", ["submissions/{submission}/images/{image}", "datasets/streets/images/{image}"])
+def test_the_bar_stays_whatever_is_scrolled_into_view(page: Page, scored: Scored, place: str) -> None:
+    page.set_viewport_size({"width": 900, "height": 420})
+    where = place.format(submission=scored.mine, image=scored.images["a"])
+    open_viewer(page, f"{scored.server.address}/{where}")
+    bar = page.get_by_role("banner")
+    before = bar.bounding_box()
+    # Panels scroll in themselves; the page that holds them doesn't.
+    page.evaluate("() => document.querySelectorAll('main *').forEach((part) => part.scrollIntoView())")
+    page.evaluate("() => window.scrollTo(0, 1000)")
+    assert bar.bounding_box() == before
+    assert page.evaluate("() => document.scrollingElement.scrollTop") == 0
 
 
 def changed(page: Page, before: str) -> None:
@@ -313,7 +340,7 @@ def test_keys_stay_among_the_images_that_were_searched_for(page: Page, scored: S
 
 def test_two_submissions_move_together_and_show_where_they_differ(page: Page, scored: Scored) -> None:
     open_viewer(page, scored.address("a"))
-    page.get_by_role("button", name="With…").click()
+    page.get_by_role("button", name="Compare with…").click()
     page.get_by_role("button", name="Other finder v1").click()
     compare = page.get_by_label("Compare", exact=True)
     expect(compare.get_by_role("row", name="Found")).to_have_text(re.compile(r"^Found\s*1\s*1$"))

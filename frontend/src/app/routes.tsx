@@ -29,10 +29,6 @@ export function makeRouter() {
           lazy: async () => ({ Component: (await import("../pages/label/finished_page")).FinishedPage }),
         },
         {
-          path: "/submissions/:id/images/:splitImageId",
-          lazy: async () => ({ Component: (await import("../pages/viewer/viewer_page")).ViewerPage }),
-        },
-        {
           path: "/datasets/:slug/card",
           lazy: async () => ({ Component: (await import("../pages/card/card_page")).CardPage }),
         },

@@ -181,26 +181,29 @@ function Axes({ x, y, width }: { x: Scale; y: Scale; width: number }) {
   );
 }
 
+/** All names come after all curves: no curve runs through the name of another. */
 function IsoCurves({ x, y }: { x: Scale; y: Scale }) {
+  const curves = isoF1Levels(x.domain, y.domain)
+    .map((f1) => ({ f1, curve: isoF1(f1, x.domain, y.domain).map(([r, p]): Point => [x.at(r), y.at(p)]) }))
+    .filter(({ curve }) => curve.length > 0);
   return (
-    <g>
-      {isoF1Levels(x.domain, y.domain).map((f1) => {
-        const curve = isoF1(f1, x.domain, y.domain).map(([r, p]): Point => [x.at(r), y.at(p)]);
+    <>
+      {curves.map(({ f1, curve }) => (
+        <path
+          key={f1}
+          className="scatter__iso"
+          d={`M${curve.map(([a, b]) => `${fixed(a)} ${fixed(b)}`).join("L")}`}
+        />
+      ))}
+      {curves.map(({ f1, curve }) => {
         const [labelX, labelY] = curve.at(-1) ?? [0, 0];
-        if (curve.length === 0) return null;
         return (
-          <g key={f1}>
-            <path
-              className="scatter__iso"
-              d={`M${curve.map(([a, b]) => `${fixed(a)} ${fixed(b)}`).join("L")}`}
-            />
-            <text className="scatter__iso-name" x={labelX - 3} y={labelY - 5} textAnchor="end">
-              {f1}
-            </text>
-          </g>
+          <text key={f1} className="scatter__iso-name" x={labelX - 3} y={labelY - 5} textAnchor="end">
+            {f1}
+          </text>
         );
       })}
-    </g>
+    </>
   );
 }
 

@@ -26,7 +26,7 @@ export function BoardHead({ metrics, official, sort, onSort }: BoardHeadProps) {
           <th colSpan={official.length} className="board-official board-official--first">
             official-v1, as published
           </th>
-          <th colSpan={2} />
+          <th colSpan={2} className="board-scored" />
         </tr>
       ) : null}
       <tr>
@@ -41,7 +41,7 @@ export function BoardHead({ metrics, official, sort, onSort }: BoardHeadProps) {
             name: `board-official${index === 0 ? " board-official--first" : ""}`,
           }),
         )}
-        {head("date", "Scored", { number: true })}
+        {head("date", "Scored", { number: true, name: "board-scored" })}
         <th>
           <span className="visually-hidden">Links</span>
         </th>

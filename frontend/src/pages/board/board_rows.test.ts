@@ -57,13 +57,20 @@ describe("order of a board", () => {
     expect(names(sortRows(rows, { column: "f1", descending: true }))).toEqual(["b", "a"]);
   });
 
-  it("goes by both ends of a rank", () => {
+  it("goes by the best rank, then by F1 and not by the width of the interval", () => {
     const rows = [
-      row("wide", 0, { rank_low: 1, rank_high: 3 }),
-      row("unranked", 0, { rank_low: null, rank_high: null }),
-      row("first", 0, { rank_low: 1, rank_high: 1 }),
+      row("unranked", 0.9, { rank_low: null, rank_high: null }),
+      row("third", 0.99, { rank_low: 3, rank_high: 3 }),
+      row("narrow", 0.781, { rank_low: 1, rank_high: 2 }),
+      row("wide", 0.784, { rank_low: 1, rank_high: 3 }),
     ];
-    expect(names(sortRows(rows, BY_RANK))).toEqual(["first", "wide", "unranked"]);
+    expect(names(sortRows(rows, BY_RANK))).toEqual(["wide", "narrow", "third", "unranked"]);
+    expect(names(sortRows(rows, { column: "rank", descending: true }))).toEqual([
+      "third",
+      "wide",
+      "narrow",
+      "unranked",
+    ]);
   });
 });
 

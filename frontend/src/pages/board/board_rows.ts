@@ -46,14 +46,19 @@ export function nextSort(current: Sort, column: string): Sort {
   return { column, descending: bestFirst(column) };
 }
 
-/** Sorted anew; rows without a value stay at the end, equal ones in the order they had. */
+/**
+ * Sorted anew; rows without a value stay at the end, equal ones in the order they had.
+ *
+ * Among rows of the same best rank the higher F1 comes first, whichever way the ranks run: how wide an interval of ranks
+ * is says how sure it is, not how good.
+ */
 export function sortRows(rows: readonly BoardRow[], { column, descending }: Sort): BoardRow[] {
   const sign = descending ? -1 : 1;
   return rows
     .map((row) => ({ row, key: sortKey(row, column) }))
     .sort((a, b) => {
       if (a.key === null || b.key === null) return Number(a.key === null) - Number(b.key === null);
-      return sign * compare(a.key, b.key);
+      return sign * compare(a.key, b.key) || (column === "rank" ? compareF1(a.row, b.row) : 0);
     })
     .map(({ row }) => row);
 }
@@ -103,10 +108,15 @@ function bestFirst(column: string): boolean {
 }
 
 function sortKey(row: BoardRow, column: string): string | number | null {
-  if (column === "rank") return row.rank_low === null ? null : row.rank_low * 1e6 + (row.rank_high ?? 0);
+  if (column === "rank") return row.rank_low;
   if (column === "method") return row.method.name.toLocaleLowerCase();
   if (column === "date") return row.scored_at === null ? null : Date.parse(row.scored_at);
   return totalOf(row, column);
+}
+
+/** The higher F1 first; without one, last. */
+function compareF1(a: BoardRow, b: BoardRow): number {
+  return (totalOf(b, "f1") ?? -1) - (totalOf(a, "f1") ?? -1);
 }
 
 function compare(a: string | number, b: string | number): number {

@@ -77,7 +77,7 @@ export function BoardTable({ rows, sort, onSort, highlighted, onHighlight }: Boa
                 {official.map((key) => (
                   <OfficialCell key={key} row={row} metric={key} first={key === official[0]} />
                 ))}
-                <td className="table__number table__small">
+                <td className="table__number table__small board-scored">
                   {row.scored_at ? <time dateTime={row.scored_at}>{formatDay(row.scored_at)}</time> : "–"}
                 </td>
                 <td>

@@ -109,8 +109,8 @@ function Reading({ board }: { board: Board }) {
         </dd>
         <dt>As published</dt>
         <dd>
-          Columns under v1 hold what the paper's own script says. It counts boxes and not one-to-one: five
-          copies of one correct line reach R 5.0 and F1 1.67. Never the rank.
+          The columns official-v1 hold what the paper's own script says. It counts boxes and not one-to-one:
+          five copies of one correct line reach R 5.0 and F1 1.67. Never the rank.
         </dd>
         <dt>Baselines and ceilings</dt>
         <dd>

@@ -3,7 +3,7 @@ import { Button } from "../../design/button";
 import { Icon } from "../../design/icons";
 import { figureShape } from "./figure_shape";
 
-const WHAT = "One frame of the dataset: as it is, with its candidates, with what was kept.";
+const WHAT = "One image of the dataset: bare first, then with its lines; what was kept comes last.";
 
 interface FigureProps {
   address: string;

@@ -14,6 +14,7 @@ import { ReviewBar, reviewText } from "../../design/review_bar";
 import { FileButtons } from "../../uploads/file_buttons";
 import type { Picked } from "../../uploads/picked_files";
 import { useDatasetActions } from "../datasets/use_dataset_actions";
+import { segmentsText } from "../labelled";
 import { verdictText } from "../verdict_text";
 
 interface DatasetHeaderProps {
@@ -29,6 +30,7 @@ interface DatasetHeaderProps {
 export function DatasetHeader(props: DatasetHeaderProps) {
   const { dataset, running, prelabelOpen, onLabel, onPrelabel, onPicked, exportMenu } = props;
   const { images, candidates, reviewed, verdicts } = dataset;
+  const segments = segmentsText(dataset);
   const { label, maintain } = useRights();
   const labelFirst = candidates > 0 || running || !maintain;
   return (
@@ -37,8 +39,7 @@ export function DatasetHeader(props: DatasetHeaderProps) {
         <Title dataset={dataset} />
         <p className="muted numeric">
           {formatQuantity(images, "image")}
-          {candidates > 0 ? ` · ${formatQuantity(candidates, "candidate")}` : null} · created{" "}
-          {formatDay(dataset.created_at)}
+          {segments === null ? null : ` · ${segments}`} · created {formatDay(dataset.created_at)}
         </p>
       </div>
       <div className="dataset-header__actions">

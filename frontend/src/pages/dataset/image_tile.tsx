@@ -4,9 +4,10 @@ import { thumbnailUrl } from "../../api/endpoints";
 import type { ImageSummary } from "../../api/types";
 import { PrelabelBadge, ReviewBadge } from "../../design/badge";
 import { Ellipsis } from "../../design/ellipsis";
-import { formatCount, formatQuantity, sentence } from "../../design/format";
+import { formatCount, sentence } from "../../design/format";
 import { Icon } from "../../design/icons";
 import { VerdictBar } from "../../design/progress";
+import { imageCameLabelled, imageSegmentsText } from "../labelled";
 import { verdictText } from "../verdict_text";
 
 /** A picture is asked for once its tile has stayed in view this long, so that scrolling past asks for nothing. */
@@ -104,6 +105,10 @@ function State({ image }: { image: ImageSummary }) {
       <ReviewBadge status={image.status} />
       {working ? (
         <PrelabelBadge status={image.prelabel} />
+      ) : imageCameLabelled(image) ? (
+        <span className="muted" title={verdictText(image.verdicts)}>
+          {imageSegmentsText(image)}
+        </span>
       ) : image.candidates > 0 ? (
         <span className="muted" title={verdictText(image.verdicts)}>
           {formatCount(image.candidates - image.verdicts.undecided)}/{formatCount(image.candidates)}
@@ -117,6 +122,5 @@ function State({ image }: { image: ImageSummary }) {
 
 function spoken(image: ImageSummary): string {
   const work = image.prelabel === "failed" ? `pre-labelling failed: ${image.error?.message ?? ""}` : "";
-  const candidates = formatQuantity(image.candidates, "candidate");
-  return [image.name, image.status, work || candidates].join(", ");
+  return [image.name, image.status, work || imageSegmentsText(image)].join(", ");
 }

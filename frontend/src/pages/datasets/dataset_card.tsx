@@ -10,6 +10,7 @@ import { InlineEdit } from "../../design/inline_edit";
 import { Popover } from "../../design/popover";
 import { VerdictBar } from "../../design/progress";
 import { ReviewBar, reviewText } from "../../design/review_bar";
+import { cameLabelled, labelledText, segmentsText } from "../labelled";
 import { RunState } from "../run_state";
 import { verdictText } from "../verdict_text";
 import { useDatasetActions } from "./use_dataset_actions";
@@ -21,6 +22,7 @@ export function DatasetCard({ dataset }: { dataset: Dataset }) {
   const { rename } = useDatasetActions();
   const { maintain } = useRights();
   const { slug, name, images, reviewed, verdicts, candidates, latest_run } = dataset;
+  const labelled = cameLabelled(dataset);
   return (
     <li className="dataset-card card">
       <Cover dataset={dataset} />
@@ -43,7 +45,8 @@ export function DatasetCard({ dataset }: { dataset: Dataset }) {
           </div>
         )}
         <p className="dataset-card__facts muted numeric">
-          {formatQuantity(images, "image")} · {formatDay(dataset.created_at)}
+          {formatQuantity(images, "image")}
+          {labelled ? ` · ${segmentsText(dataset)}` : null} · {formatDay(dataset.created_at)}
         </p>
         {images > 0 ? (
           <div className="dataset-card__measure">
@@ -63,7 +66,9 @@ export function DatasetCard({ dataset }: { dataset: Dataset }) {
           {latest_run ? (
             <RunState run={latest_run} />
           ) : (
-            <span className="muted">{images > 0 ? "Not pre-labelled" : "No images yet"}</span>
+            <span className="muted">
+              {labelled ? labelledText(dataset) : images > 0 ? "Not pre-labelled" : "No images yet"}
+            </span>
           )}
         </div>
       </div>

@@ -19,7 +19,7 @@ export function ErrorTypes({ sides }: { sides: readonly ErrorsOfSide[] }) {
                   <span className="table__small">{meaning}</span>
                 </th>
                 <td className="error-types__bar" aria-hidden="true">
-                  <span style={{ width: `${(100 * count) / Math.max(1, total)}%` }} />
+                  {count > 0 ? <span style={{ width: `${(100 * count) / total}%` }} /> : null}
                 </td>
                 <td className="numeric error-types__count">
                   <strong>{formatCount(count)}</strong>{" "}

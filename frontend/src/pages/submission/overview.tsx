@@ -1,5 +1,7 @@
-import type { Submission } from "../../api/board_types";
+import { useRef } from "react";
+import type { Measured, Submission } from "../../api/board_types";
 import { IntervalBar } from "../../charts/interval_bar";
+import { useWidth } from "../../charts/use_width";
 import { formatDate } from "../../design/format";
 import { EmptyState } from "../../design/states";
 import { TableScroll } from "../../design/table_scroll";
@@ -26,14 +28,7 @@ export function Overview({ submission }: { submission: Submission }) {
         {HEADLINE.map((key) => {
           const measured = totals[key];
           if (!measured || measured.value === null) return null;
-          return (
-            <li key={key} className="headline__item card">
-              <span className="muted">{metricOf(key).name}</span>
-              <strong className="headline__value numeric">{metricText(key, measured.value)}</strong>
-              <IntervalBar {...measured} value={measured.value} domain={[0, 1]} width={200} />
-              <span className="muted numeric">{intervalText(key, measured)}</span>
-            </li>
-          );
+          return <HeadlineItem key={key} metric={key} measured={measured} value={measured.value} />;
         })}
       </ul>
       {strata.length > 0 || errors.length > 0 ? (
@@ -46,6 +41,21 @@ export function Overview({ submission }: { submission: Submission }) {
       {submission.f1_grid ? <F1GridTable grid={submission.f1_grid} /> : null}
       <Provenance submission={submission} />
     </>
+  );
+}
+
+function HeadlineItem({ metric, measured, value }: { metric: string; measured: Measured; value: number }) {
+  const bar = useRef<HTMLDivElement>(null);
+  const width = useWidth(bar, 200);
+  return (
+    <li className="headline__item card">
+      <span className="muted">{metricOf(metric).name}</span>
+      <strong className="headline__value numeric">{metricText(metric, value)}</strong>
+      <div ref={bar} className="headline__bar">
+        <IntervalBar {...measured} value={value} domain={[0, 1]} width={width} />
+      </div>
+      <span className="muted numeric">{intervalText(metric, measured)}</span>
+    </li>
   );
 }
 

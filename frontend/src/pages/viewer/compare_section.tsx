@@ -30,7 +30,7 @@ export function CompareSection(props: CompareSectionProps) {
       <div className="panel-heading">
         <h2>Compare</h2>
         <span className="panel-heading__end">
-          <Popover label={other === null ? "With…" : "Another…"} small align="end">
+          <Popover label={other === null ? "Compare with…" : "Another…"} small align="end">
             {(close) => (
               <Choices
                 a={a}

@@ -19,8 +19,11 @@ export const LAYER_NAMES: Readonly<Record<Layer, { one: string; many: string; hi
   found: { one: "Found label", many: "Found labels", hint: "The labels that the true positives lie on" },
 };
 
-/** A found label lies under the prediction that found it, so it is shown on request. */
-export const SHOWN_AT_FIRST: ShownLayers = { tp: true, fp: true, fn: true, ignored: true, found: false };
+/**
+ * What is neither right nor wrong is shown on request: there may be hundreds of ignored lines, and a found label lies
+ * under the prediction that found it.
+ */
+export const SHOWN_AT_FIRST: ShownLayers = { tp: true, fp: true, fn: true, ignored: false, found: false };
 
 export function layerOf(kind: "label" | "prediction", outcome: Outcome): Layer {
   if (outcome === "hit") return kind === "label" ? "found" : "tp";
