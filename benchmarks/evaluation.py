@@ -4,8 +4,9 @@ python benchmarks/evaluation.py [--json] [--york DIR] [--images 156]
 
 Speed is measured on made-up images of 300 labels and 300 predictions of 200 points each. official-v1 is timed against
 a plain Python double loop over the same formula, on the same images in the same process; both by processor time, as
-other programs may run. clearlines-v2 is timed with all its metrics and the intervals of a bootstrap of 2000 draws, by
-wall time, images in a process for each core. Agreement is measured on the York Urban photos.
+other programs may run. clearlines-v2 is timed as the server scores a submission: every protocol, M1 to M10, strata,
+error types, and the intervals of a bootstrap of 2000 draws, by wall time, images in a process for each core. Agreement
+is measured on the York Urban photos.
 """
 
 from __future__ import annotations
@@ -21,18 +22,26 @@ from shared.detectors import Detector, clearlines, opencv_lsd
 from shared.plain_official import precision_and_recall
 from shared.reference_scorer import load_reference_scorer, reference_counts
 from shared.reporting import Target, argument_parser, finish, show_table
-from shared.scored_scenes import scene
+from shared.scored_scenes import SIZE, scene
 from shared.york import MIN_LENGTH, read_gray
 
 from app.evaluation import GroundTruth, ground_truth, long_enough, official_v1, protocol_named, total
-from app.evaluation.bootstrap import DRAWS, estimates
+from app.evaluation.bootstrap import DRAWS
 from app.evaluation.clearlines_v2 import ImageScore, score_image
+from app.evaluation.submission_scoring import (
+    ImageRecord,
+    ScoredImage,
+    SplitImageInfo,
+    score_cameras,
+    score_part,
+    score_totals,
+)
 from app.formats.inert_npy import read_label_npy
 from app.vision import Segments
 
 SEGMENTS, POINTS, IMAGES = 300, 200, 156
 PROCESSES = 2
-SEED = 1
+CAMERAS = 3
 CLEARLINES = protocol_named("clearlines-v2")
 TARGETS = (
     Target("official_times_faster", 50.0, at_most=False),
@@ -77,46 +86,43 @@ def compare_official(images: Sequence[Image]) -> dict[str, float]:
     }
 
 
-def time_clearlines(images: Sequence[Image]) -> dict[str, float]:
-    """Time clearlines-v2 with all metrics and their intervals: wall time, and processor time of all processes."""
+def submission(images: Sequence[Image]) -> list[ScoredImage]:
+    """Return the images as a submission has them, a third of them of each camera."""
+    return [
+        ScoredImage(SplitImageInfo(f"image {index}", *SIZE, camera=f"camera {index % CAMERAS}"), truth, predictions)
+        for index, (truth, predictions) in enumerate(images)
+    ]
+
+
+def time_clearlines(images: Sequence[ScoredImage]) -> dict[str, float]:
+    """Time the scoring of a submission: wall time, and processor time of all processes."""
     with ProcessPoolExecutor(PROCESSES) as pool:
-        list(pool.map(_timed_score, images[:PROCESSES]))  # processes are there before the clock runs
+        list(pool.map(_timed_record, images[:PROCESSES]))  # processes are there before the clock runs
         start = time.perf_counter()
-        results = list(pool.map(_timed_score, images, chunksize=4))
-        scores = [score for score, _ in results]
-        drawing = seconds(lambda: intervals(scores))
+        results = list(pool.map(_timed_record, images, chunksize=4))
+        records = [record for record, _ in results]
+        adding = seconds(lambda: add_up(images, records))
         whole = time.perf_counter() - start
     return {
         "clearlines_seconds": whole,
-        "clearlines_processor_seconds": sum(elapsed for _, elapsed in results) + drawing,
-        "clearlines_interval_seconds": drawing,
+        "clearlines_processor_seconds": sum(elapsed for _, elapsed in results) + adding,
+        "clearlines_totals_seconds": adding,
     }
 
 
-def growth(images: Sequence[Image]) -> dict[str, float]:
-    """Time clearlines-v2 on a quarter, a half and all of the images, one thread, processor time."""
+def growth(images: Sequence[ScoredImage]) -> dict[str, float]:
+    """Time the scoring of a quarter, a half and all of the images, one thread, processor time."""
     figures, per_image = {}, []
     for count in (len(images) // 4, len(images) // 2, len(images)):
-        elapsed = seconds(lambda count=count: intervals([_score(image) for image in images[:count]]))
+        elapsed = seconds(lambda count=count: add_up(images[:count], score_part(images[:count])))
         figures[f"clearlines_one_thread_seconds_{count}"] = elapsed
         per_image.append(elapsed / count)
     return figures | {"clearlines_milliseconds_per_image": 1000 * per_image[-1], "growth": per_image[-1] / per_image[0]}
 
 
-def intervals(scores: Sequence[ImageScore]) -> dict[str, object]:
-    """Return every metric of the images with its interval."""
-    tallies = np.stack([score.tallies for score in scores])
-    ranked = [score.ranked for score in scores]
-    return dict(
-        estimates(
-            lambda weights: {
-                name: values for name, values in total(CLEARLINES, tallies, ranked, weights).items() if values.ndim == 1
-            },
-            np.arange(len(scores)),
-            DRAWS,
-            seed=SEED,
-        )
-    )
+def add_up(images: Sequence[ScoredImage], records: Sequence[ImageRecord]) -> dict[str, object]:
+    """Return every metric of the images with its interval, the cameras' calibration included."""
+    return score_totals([image.info for image in images], records, score_cameras(images), draws=DRAWS)
 
 
 def f1(scores: Sequence[ImageScore]) -> float:
@@ -128,9 +134,9 @@ def _score(image: Image) -> ImageScore:
     return score_image(*image)
 
 
-def _timed_score(image: Image) -> tuple[ImageScore, float]:
+def _timed_record(image: ScoredImage) -> tuple[ImageRecord, float]:
     start = time.thread_time()
-    return _score(image), time.thread_time() - start
+    return score_part([image])[0], time.thread_time() - start
 
 
 def compare_with_reference(york: Path) -> dict[str, float]:
@@ -190,7 +196,8 @@ def main() -> None:
     options = parser.parse_args()
     cv2.setNumThreads(1)
     images = [scene(seed, SEGMENTS, POINTS) for seed in range(options.images)]
-    figures = compare_official(images) | time_clearlines(images) | growth(images)
+    handed_in = submission(images)
+    figures = compare_official(images) | time_clearlines(handed_in) | growth(handed_in)
     show_times(figures, len(images))
     figures |= compare_with_reference(options.york)
     finish(figures, TARGETS, as_json=options.json)

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+pytestmark = pytest.mark.xdist_group("pages")
+
 
 def draw_lines(path: Path, seed: int) -> Path:
     """Write a picture with a few long edges."""

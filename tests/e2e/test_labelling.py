@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
+pytestmark = pytest.mark.xdist_group("pages")
+
 
 def draw_lines(path: Path, seed: int) -> None:
     """Write a picture with a few long edges."""

@@ -20,6 +20,8 @@ from playwright.sync_api import FilePayload, Locator, Page, expect
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
+pytestmark = pytest.mark.xdist_group("leaderboard")
+
 WIDTH, HEIGHT = 640, 480
 IMAGES = ("alley", "bridge", "corner")
 COLUMNS = (100, 200, 300, 400)

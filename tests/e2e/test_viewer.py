@@ -255,7 +255,7 @@ def test_keys_show_and_hide_the_layers(page: Page, scored: Scored) -> None:
     # What is hidden isn't visited.
     page.keyboard.press("j")
     selection(page).to_contain_text("False positive")
-    page.wait_for_url(re.compile(r"show=tp-fp$"))
+    page.wait_for_url(re.compile(r"show=tp-fp(&|$)"))
 
 
 def test_ignored_lines_are_shown_on_request(page: Page, scored: Scored) -> None:

@@ -150,8 +150,9 @@ class Yard:
                 found[path.stem] = int(text)
         return found
 
-    def open_gate(self) -> None:
-        (self.gate / "open").touch()
+    def open_gate(self, name: str | None = None) -> None:
+        """Let the image of that name go on, or all."""
+        (self.gate / ("open" if name is None else f"{name}.open")).touch()
 
 
 def make_yard(database: Database, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Yard:

@@ -18,6 +18,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.xdist_group("hidden truth")
+
 BELOW = ("reader", "submitter", "annotator")
 CONTROL = (
     "/api/images/{image_id}/segments",

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
+pytestmark = pytest.mark.xdist_group("submissions")
+
 
 def value(done: dict[str, Any], metric: str) -> float | None:
     return done["scores"][0]["totals"][metric]["value"]
