@@ -16,9 +16,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 from sqlalchemy import create_engine, event, make_url, text
 
 from app.db.session import Database, open_database, upgrade
+
+# a machine that does other things meanwhile must not fail a property
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 TEMPLATE = f"clearlines_template_{os.getpid()}"
 

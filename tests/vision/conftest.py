@@ -11,7 +11,6 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from hypothesis import settings
 from numpy.typing import NDArray
 
 from app.vision.brown import Brown
@@ -20,10 +19,6 @@ from app.vision.frame import center_of
 from app.vision.native.library import kernels
 from app.vision.native.records import ARC, GRADIENT_SCALE, MARGIN, POINT, Scene, address
 from app.vision.segments import Segments
-
-# a machine that does other things meanwhile must not fail a property
-settings.register_profile("untimed", deadline=None)
-settings.load_profile("untimed")
 
 SegmentsThrough = Callable[..., Segments]
 
