@@ -28,7 +28,35 @@ from app.services.truths import MEDIA_TYPE
 
 
 @dataclass(frozen=True)
-class ValidateWork:
+class SubmissionWork(Work):
+    """What the three kinds have in common: they are charged to the submission and go back to its queue."""
+
+    claim: ValidationClaim | PartClaim | TotalsClaim
+
+    @property
+    def attempts(self) -> int:
+        """See ``Work``."""
+        return self.claim.claim.attempts
+
+    def fail(self, stores: Stores, error: dict[str, Any], now: datetime) -> None:
+        """See ``Work``."""
+        with stores.database.write() as session:
+            fail_or_retry(session, self.claim.claim, error, now, max_attempts=stores.max_attempts)
+
+    def again(self, stores: Stores, now: datetime) -> Work | None:
+        """See ``Work``."""
+        with stores.database.write() as session:
+            claim = charge_submission(session, self.claim.claim, now)
+        return None if claim is None else replace(self, claim=replace(self.claim, claim=claim))
+
+    def put_back(self, stores: Stores) -> None:
+        """See ``Work``."""
+        with stores.database.write() as session:
+            put_submission_back(session, self.claim.claim)
+
+
+@dataclass(frozen=True)
+class ValidateWork(SubmissionWork):
     """Read an upload and check everything in it."""
 
     claim: ValidationClaim
@@ -37,11 +65,6 @@ class ValidateWork:
     def key(self) -> Hashable:
         """See ``Work``."""
         return ("validate", self.claim.claim.submission_id)
-
-    @property
-    def attempts(self) -> int:
-        """See ``Work``."""
-        return self.claim.claim.attempts
 
     def begin(self, stores: Stores, tasks: Tasks, executor: Executor) -> Future[Any]:
         """See ``Work``."""
@@ -78,20 +101,9 @@ class ValidateWork:
         with stores.database.write() as session:
             refuse(session, self.claim.claim, error, now)
 
-    def again(self, stores: Stores, now: datetime) -> Work | None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            claim = charge_submission(session, self.claim.claim, now)
-        return None if claim is None else ValidateWork(replace(self.claim, claim=claim))
-
-    def put_back(self, stores: Stores) -> None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            put_submission_back(session, self.claim.claim)
-
 
 @dataclass(frozen=True)
-class ScoreWork:
+class ScoreWork(SubmissionWork):
     """Score some images of a submission."""
 
     claim: PartClaim
@@ -100,11 +112,6 @@ class ScoreWork:
     def key(self) -> Hashable:
         """See ``Work``."""
         return ("score", self.claim.score_id, self.claim.images)
-
-    @property
-    def attempts(self) -> int:
-        """See ``Work``."""
-        return self.claim.claim.attempts
 
     def begin(self, stores: Stores, tasks: Tasks, executor: Executor) -> Future[Any]:
         """See ``Work``."""
@@ -118,25 +125,9 @@ class ScoreWork:
         with stores.database.write() as session:
             store_images(session, self.claim.score_id, dict(zip(self.claim.images, result, strict=True)), now)
 
-    def fail(self, stores: Stores, error: dict[str, Any], now: datetime) -> None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            fail_or_retry(session, self.claim.claim, error, now, max_attempts=stores.max_attempts)
-
-    def again(self, stores: Stores, now: datetime) -> Work | None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            claim = charge_submission(session, self.claim.claim, now)
-        return None if claim is None else ScoreWork(replace(self.claim, claim=claim))
-
-    def put_back(self, stores: Stores) -> None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            put_submission_back(session, self.claim.claim)
-
 
 @dataclass(frozen=True)
-class TotalWork:
+class TotalWork(SubmissionWork):
     """Add up the images of a submission, with intervals."""
 
     claim: TotalsClaim
@@ -145,11 +136,6 @@ class TotalWork:
     def key(self) -> Hashable:
         """See ``Work``."""
         return ("total", self.claim.score_id)
-
-    @property
-    def attempts(self) -> int:
-        """See ``Work``."""
-        return self.claim.claim.attempts
 
     def begin(self, stores: Stores, tasks: Tasks, executor: Executor) -> Future[Any]:
         """See ``Work``."""
@@ -165,19 +151,3 @@ class TotalWork:
         """See ``Work``."""
         with stores.database.write() as session:
             store_totals(session, self.claim.score_id, result, now)
-
-    def fail(self, stores: Stores, error: dict[str, Any], now: datetime) -> None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            fail_or_retry(session, self.claim.claim, error, now, max_attempts=stores.max_attempts)
-
-    def again(self, stores: Stores, now: datetime) -> Work | None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            claim = charge_submission(session, self.claim.claim, now)
-        return None if claim is None else TotalWork(replace(self.claim, claim=claim))
-
-    def put_back(self, stores: Stores) -> None:
-        """See ``Work``."""
-        with stores.database.write() as session:
-            put_submission_back(session, self.claim.claim)
