@@ -38,6 +38,8 @@ class Dataset(Base):
     description: Mapped[str | None] = mapped_column(Text)
     licence: Mapped[str | None] = mapped_column(Text)
     citation: Mapped[str | None] = mapped_column(Text)
+    guidelines: Mapped[str | None] = mapped_column(Text)
+    rules: Mapped[dict[str, Any] | None]  # {"second_share": share of images reviewed twice, "ask_recall": bool}
     created_at: Mapped[datetime]
     deleted_at: Mapped[datetime | None]
 
@@ -76,6 +78,7 @@ class Image(Base):
         alive_unique("uq_images_dataset_name_alive", "dataset_id", "name"),
         alive_unique("uq_images_dataset_content_alive", "dataset_id", "sha256"),
         Index("ix_images_dataset_camera", "dataset_id", "camera_id"),
+        Index("ix_images_dataset_id_assignee", "dataset_id", "assignee"),
         NEVER_REUSED,
     )
 
@@ -90,6 +93,7 @@ class Image(Base):
     camera_id: Mapped[int] = mapped_column(ForeignKey("cameras.id"), index=True)
     source: Mapped[str | None] = mapped_column(String(300))
     sequence: Mapped[str | None] = mapped_column(String(300))
+    assignee: Mapped[str | None] = mapped_column(String(200))  # who is to review it
     revision: Mapped[int] = mapped_column(default=0)  # rises when the set of candidates changes
     # counts of the current segments, written by app.services.candidates.refresh_counts in the same transaction
     n_candidates: Mapped[int] = mapped_column(default=0)

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 VERDICTS = ("keep", "reject", "ambiguous", "undecided")
 REVIEW_STATES = ("open", "done", "discarded")
 ORIGINS = ("pipeline", "manual", "import")
-DECISION_KINDS = ("judge", "undo", "redo", "carry", "import")
+DECISION_KINDS = ("judge", "undo", "redo", "carry", "import", "accept", "take_over")
+REASONS = ("car", "lane_marking", "curved", "shadow", "other")
+RECALLS = ("complete", "nearly", "incomplete")
 
 
 class Segment(Base):
@@ -76,6 +78,8 @@ class Decision(Base):
     group_id: Mapped[str] = mapped_column(String(36))
     target_group_id: Mapped[str | None] = mapped_column(String(36))  # the group that an undo or redo is about
     elapsed_ms: Mapped[int | None] = mapped_column(Integer)
+    reason: Mapped[str | None] = mapped_column(String(40))  # why it was rejected
+    suggestion: Mapped[float | None] = mapped_column(Float)  # the probability of keep that the person saw
     created_at: Mapped[datetime]
 
 
@@ -87,6 +91,7 @@ class SegmentState(Base):
 
     segment_id: Mapped[int] = mapped_column(ForeignKey("segments.id", ondelete="CASCADE"), primary_key=True)
     verdict: Mapped[str] = mapped_column(String(20))
+    reason: Mapped[str | None] = mapped_column(String(40))
     decision_id: Mapped[int] = mapped_column(ForeignKey("decisions.id", ondelete="CASCADE"), index=True)
 
     segment: Mapped[Segment] = relationship(back_populates="state")
@@ -102,6 +107,7 @@ class Review(Base):
     status: Mapped[str] = mapped_column(String(20), default="open", index=True)
     reason: Mapped[str | None] = mapped_column(Text)
     person: Mapped[str | None] = mapped_column(String(200))
+    recall: Mapped[str | None] = mapped_column(String(20))  # how much of what is straight the labels hold
     updated_at: Mapped[datetime]
 
     image: Mapped[Image] = relationship(back_populates="review")
