@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from app.vision.chaining import Runs
 from app.vision.edges import EdgeMap
 from app.vision.native.library import kernels
-from app.vision.native.records import ARC, address
+from app.vision.native.records import ARC, address, aligned
 
 
 def fit_pieces(edges: EdgeMap, runs: tuple[Runs, Runs]) -> NDArray[Any]:
@@ -42,7 +42,7 @@ def fit_pieces(edges: EdgeMap, runs: tuple[Runs, Runs]) -> NDArray[Any]:
         `ARC` ``(2 n + 1,)``: the n pieces in front, numbered from 0 on, and room for merging them.
     """
     height, width = edges.gray.shape
-    arcs = np.empty(2 * sum(len(each) for each in runs) + 1, ARC)
+    arcs = aligned(2 * sum(len(each) for each in runs) + 1, ARC)
     number = 0
     for axis, (own, points) in enumerate(zip(runs, edges.points, strict=True)):
         kernels().cl_pieces(

@@ -50,13 +50,13 @@ def find_runs(edges: EdgeMap, axis: int, low: float, high: float) -> Runs:
         low: Points with a gradient norm up to this are left out.
         high: A chain is kept when one of its points is above this.
     """
-    points, places, (height, width) = edges.points[axis], edges.places[axis], edges.gray.shape
+    points, spans, (height, width) = edges.points[axis], edges.spans[axis], edges.gray.shape
     count = len(points)
     rows, chain_ends = np.empty(count, np.int32), np.empty(count, np.int64)
     bounds, sizes = np.empty((count, 2), np.int64), np.zeros(2, np.int64)
     found = counted(
         kernels().cl_runs(
-            *(address(points), count, address(places.occupied), address(places.before)),
+            *(address(points), count, address(spans)),
             *(axis, width, height, low, high),
             *(address(rows), address(chain_ends), address(bounds), address(sizes)),
         )

@@ -14,10 +14,10 @@ import pytest
 from numpy.typing import NDArray
 
 from app.vision.brown import Brown
-from app.vision.edges import EdgeMap, no_places
+from app.vision.edges import EdgeMap, no_spans
 from app.vision.frame import center_of
 from app.vision.native.library import kernels
-from app.vision.native.records import ARC, GRADIENT_SCALE, MARGIN, POINT, Scene, address
+from app.vision.native.records import ARC, GRADIENT_SCALE, MARGIN, POINT, SPAN_PIXELS, Scene, address
 from app.vision.segments import Segments
 
 SegmentsThrough = Callable[..., Segments]
@@ -138,15 +138,16 @@ def edges_of() -> EdgesOf:
         points["along"], points["across"], points["slope"], points["norm"] = columns, rows, slope, norm
         points = points[np.lexsort((points["across"], points["along"]))]
         height, width = shape
-        places = no_places(width, height), no_places(height, width)
-        occupied = np.zeros((len(places[0].occupied), 8 * places[0].occupied.shape[1]), np.uint8)
-        occupied[points["along"], MARGIN + np.rint(points["across"]).astype(int)] = 1
-        places[0].occupied[:] = np.packbits(occupied, axis=1, bitorder="little")
-        counts = occupied.reshape(-1, 8).sum(axis=1)
-        places[0].before.ravel()[1:] = np.cumsum(counts)[:-1]
+        spans = no_spans(width, height), no_spans(height, width)
+        occupied = np.zeros((*spans[0].shape, SPAN_PIXELS), np.uint8)
+        across = MARGIN + np.rint(points["across"]).astype(int)
+        occupied[points["along"], across // SPAN_PIXELS, across % SPAN_PIXELS] = 1
+        spans[0]["occupied"] = np.packbits(occupied, axis=2, bitorder="little").view("<u4")[..., 0]
+        counts = occupied.sum(axis=2)
+        spans[0]["before"] = (np.cumsum(counts) - counts.ravel()).reshape(counts.shape)
         field = np.zeros((2, *shape)) if gradients is None else gradients
-        steps = np.rint(field * GRADIENT_SCALE).astype(np.int16)
-        return EdgeMap(np.zeros(shape, np.uint8), steps, (points, np.zeros(0, POINT)), places)
+        steps = np.rint(np.moveaxis(field, 0, 2) * GRADIENT_SCALE).astype(np.int16, order="C")
+        return EdgeMap(np.zeros(shape, np.uint8), np.moveaxis(steps, 2, 0), (points, np.zeros(0, POINT)), spans)
 
     return make
 

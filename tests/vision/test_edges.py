@@ -11,7 +11,7 @@ from scipy import ndimage
 
 from app.vision.edges import POSITION_SIGMA, EdgeMap, edge_map
 from app.vision.equalisation import LEVELS, Equalisation, equalisation
-from app.vision.native.records import GRADIENT_SCALE, MARGIN
+from app.vision.native.records import GRADIENT_SCALE, MARGIN, SPAN_PIXELS
 from app.vision.watch import Watch
 
 
@@ -51,7 +51,8 @@ def positions(edges: EdgeMap, axis: int) -> np.ndarray:
 
 def occupied(edges: EdgeMap, axis: int) -> np.ndarray:
     """Whether a pixel has a point: columns in the pass along x, rows in that along y, with margins."""
-    return np.unpackbits(edges.places[axis].occupied, axis=1, bitorder="little").astype(bool)
+    spans = np.ascontiguousarray(edges.spans[axis]["occupied"], "<u4")
+    return np.unpackbits(spans.view(np.uint8), axis=1, bitorder="little").astype(bool)
 
 
 def errors(edges: EdgeMap, angle: float, offset: float) -> np.ndarray:
@@ -102,8 +103,8 @@ def test_points_and_places_agree(image: np.ndarray) -> None:
         assert (np.abs(points["across"] - (across - MARGIN)) <= 0.501).all()
         assert np.isfinite(points["slope"]).all()
         assert len(points) <= (image.shape[axis == 1] + 1) // 2 * image.shape[axis == 0]
-        counts = pixels.reshape(-1, 8).sum(axis=1)
-        assert np.array_equal(edges.places[axis].before.ravel(), np.cumsum(counts) - counts)
+        counts = pixels.reshape(-1, SPAN_PIXELS).sum(axis=1)
+        assert np.array_equal(edges.spans[axis]["before"].ravel(), np.cumsum(counts) - counts)
 
 
 def test_of_a_tie_one_pixel_is_taken() -> None:
@@ -179,3 +180,22 @@ def test_a_photo_is_equalised_while_its_edges_are_found() -> None:
     looked_up = tables.tables[0, 0][image].astype(float)
     edges = find(image, tables=tables)
     assert np.abs(edges.gradients / GRADIENT_SCALE - gradient(looked_up, 0.5)).max() < 0.04
+
+
+def test_an_image_with_more_points_than_is_usual_loses_none() -> None:
+    # steps up and down by turns, 2 or 3 px apart: 40 % of the pixels have a point
+    stripes = np.tile(np.where(np.arange(600) % 5 < 2, 255, 0).astype(np.uint8), (90, 1))
+    edges = find(stripes)
+    assert len(edges.points[1]) > stripes.size / 4
+    points = edges.points[1].reshape(88, -1)
+    assert (points["along"] == np.arange(1, 89)[:, None]).all()
+    assert np.array_equal(points["across"], np.tile(points["across"][0], (88, 1)))
+    assert np.array_equal(find(stripes.T).points[0]["across"], edges.points[1]["across"])
+
+
+def test_progress_rises_even_where_points_are_looked_for_twice() -> None:
+    stripes = np.tile(np.where(np.arange(600) % 5 < 2, 255, 0).astype(np.uint8), (400, 1))
+    told: list[float] = []
+    edge_map(stripes, unchanged(stripes), 0.5, 25.0, Watch(told.append))
+    assert told
+    assert told == sorted(told)

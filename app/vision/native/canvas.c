@@ -26,6 +26,11 @@ static int is_free_at(Line line, int pixel, uint16_t direction) {
     return !painted || (turn >= PARALLEL && turn <= 65536 - PARALLEL);
 }
 
+void fetch_pixel(const Canvas *canvas, int axis, int along, const Sample *sample) {
+    const Line line = line_at(canvas, axis, clamp(along, 0, (axis == ALONG_X ? canvas->width : canvas->height) - 1));
+    __builtin_prefetch(&line.first[clamp(sample->pixel, 0, line.size - 1) * line.stride]);
+}
+
 int is_free(const Canvas *canvas, int axis, int along, const Sample *sample, uint16_t direction) {
     const Line line = line_at(canvas, axis, clamp(along, 0, (axis == ALONG_X ? canvas->width : canvas->height) - 1));
     if (!is_free_at(line, sample->pixel, direction)) return 0;

@@ -49,7 +49,7 @@ typedef struct {
 } Links;
 
 static int32_t first_of_line(const Field *field, int line) {
-    return field->places.before[(size_t)line * field->places.line_bytes];
+    return field->places.spans[(size_t)line * field->places.line_spans].before;
 }
 
 /* The loops of linking branch on nothing that depends on a point, as none of it can be guessed: what there may be is
@@ -57,14 +57,14 @@ static int32_t first_of_line(const Field *field, int line) {
 
 /* List all points of a line within two pixels of where loose points point: wide enough for every pair that both slopes
  * allow, or the direction of linking would matter. Returns the number of pairs. */
-static int list_pairs(const Field *field, int line, int step, const int32_t *loose, int count, int32_t *source,
-                      int32_t *target) {
+FOR_EACH_PROCESSOR static int list_pairs(const Field *field, int line, int step, const int32_t *loose, int count,
+                                         int32_t *source, int32_t *target) {
     int pairs = 0;
     for (int i = 0; i < count; i++) {
         const EdgePoint *from = &field->points[loose[i]];
         const int expected = (int)lrintf(from->across + from->slope * (float)step);
         const Window window = window_at(&field->places, line, expected - WINDOW, WIDEST);
-        const int found = bits_set[window.bits];
+        const int found = bits_set(window.bits);
         for (int k = 0; k < LIKELY || k < found; k++) source[pairs + k] = i, target[pairs + k] = window.first + k;
         pairs += found;
     }
@@ -206,16 +206,15 @@ static int32_t list_chains(const Links *links, int32_t count, Chain *chains, int
 
 /* Chain the points of one pass and split the chains.
  *
- * points (count,), occupied, before: see cl_edge_points. low, high: hysteresis on the norm.
+ * points (count,), spans: see cl_edge_points. low, high: hysteresis on the norm.
  * Written: rows int32, room for (count,), the chained points in order; chain_ends int64, room for (count,); runs int64,
  * room for (count, 2), first and one past last index into rows; sizes int64 (2,): chained points and chains.
  * Returns the number of runs or OUT_OF_MEMORY. */
-EXPORT FOR_EACH_PROCESSOR int64_t cl_runs(const EdgePoint *points, int64_t count, const uint8_t *occupied,
-                                          const int32_t *before, int axis, int width, int height, double low,
-                                          double high, int32_t *rows, int64_t *chain_ends, int64_t *runs,
-                                          int64_t *sizes) {
+EXPORT FOR_EACH_PROCESSOR int64_t cl_runs(const EdgePoint *points, int64_t count, const Span *spans, int axis,
+                                          int width, int height, double low, double high, int32_t *rows,
+                                          int64_t *chain_ends, int64_t *runs, int64_t *sizes) {
     const int lines = axis == ALONG_X ? width : height, across_size = axis == ALONG_X ? height : width;
-    const Field field = {points, {occupied, before, line_bytes(across_size)}, lines, (float)low};
+    const Field field = {points, {spans, line_spans(across_size)}, lines, (float)low};
     const size_t room = (size_t)(count ? count : 1), most = (size_t)across_size + 1;
     Links links;
     float *along = malloc(sizeof(float) * 2 * (size_t)lines);

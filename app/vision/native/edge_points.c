@@ -15,8 +15,8 @@ enum { REPORT_PIXELS = 32768, MARKED_X = 1, MARKED_Y = 2 };
 typedef struct {
     EdgePoint *points;
     int64_t count;
-    uint8_t *occupied; /* see Places */
-    size_t line_bytes;
+    Span *spans; /* see Places */
+    size_t line_spans;
     int32_t *latest; /* point of each line, where there is one */
 } Pass;
 
@@ -33,8 +33,8 @@ static int16_t to_step(float value) {
     return (int16_t)bits;
 }
 
-static void write_steps(const float *gradient, int width, int16_t *restrict steps) {
-    for (int x = 0; x < width; x++) steps[x] = to_step(gradient[x]);
+FOR_EACH_PROCESSOR static void write_steps(const float *x, const float *y, int width, Steps *restrict steps) {
+    for (int i = 0; i < width; i++) steps[i] = (Steps){to_step(x[i]), to_step(y[i])};
 }
 
 /* Mark the pixels of a row whose norm is largest across the edge, for the pass or passes that their edge belongs to. */
@@ -111,10 +111,10 @@ static inline void put(Pass *pass, const Profile *profile, int along, int across
     const EdgePoint point = {along, (float)across + offset, steep ? -sideways / forward : 0,
                              profile->forward[1] > 0 ? norm : -norm};
     const size_t place = (size_t)(across + shift + MARGIN);
-    uint8_t *eight = &pass->occupied[(size_t)along * pass->line_bytes + place / 8];
-    const uint8_t bit = (uint8_t)(1u << place % 8);
-    if (!(*eight & bit)) {
-        *eight |= bit;
+    Span *span = &pass->spans[(size_t)along * pass->line_spans + place / SPAN_PIXELS];
+    const uint32_t bit = 1u << place % SPAN_PIXELS;
+    if (!(span->occupied & bit)) {
+        span->occupied |= bit;
         pass->latest[along] = (int32_t)pass->count;
         pass->points[pass->count++] = point;
         return;
@@ -124,19 +124,19 @@ static inline void put(Pass *pass, const Profile *profile, int along, int across
     if (fabsf(point.norm) > fabsf(other->norm)) *other = point;
 }
 
-/* Count the points before each byte of a pass's places. */
-static void count_before(const Pass *pass, int lines, int32_t *before) {
-    const size_t bytes = (size_t)(lines + LINES_BEYOND) * pass->line_bytes;
+/* Count the points before each span of a pass. */
+FOR_EACH_PROCESSOR static void count_before(const Pass *pass, int lines) {
+    const size_t spans = (size_t)(lines + LINES_BEYOND) * pass->line_spans;
     int32_t count = 0;
-    for (size_t i = 0; i < bytes; i++) {
-        before[i] = count;
-        count += bits_set[pass->occupied[i]];
+    for (size_t i = 0; i < spans; i++) {
+        pass->spans[i].before = count;
+        count += bits_set(pass->spans[i].occupied);
     }
 }
 
 /* Order points found row by row by their columns; `next` gets a point to be written next for each of these. */
-static void order_by_line(const Pass *pass, int lines, const int32_t *before, int32_t *next, EdgePoint *ordered) {
-    for (int line = 0; line < lines; line++) next[line] = before[(size_t)line * pass->line_bytes];
+static void order_by_line(const Pass *pass, int lines, int32_t *next, EdgePoint *ordered) {
+    for (int line = 0; line < lines; line++) next[line] = pass->spans[(size_t)line * pass->line_spans].before;
     for (int64_t i = 0; i < pass->count; i++) ordered[next[pass->points[i].along]++] = pass->points[i];
 }
 
@@ -200,14 +200,13 @@ static void equalised_row(const void *image, int row, float *out) { equalise_row
  * gray: uint8 (height, width), both 3 or more. tables, left, rightward: see cl_equalising_tables, cl_tile_weights.
  * sigma: blur of the equalised image, that edges are found in; position_sigma: of the plain one, that they are measured
  * in. weakest: norm that an edge point exceeds.
- * occupied_x, occupied_y: zeros. Written: gradient_x, gradient_y int16 (height, width) in steps of 1 / 16; of both
- * passes the points, room for (capacity,) each, counts int64 (2,), and occupied and before as in Places.
- * Returns 0, OUT_OF_MEMORY or CANCELLED. */
+ * spans_x, spans_y: zeros. Written: gradient (height, width); of both passes the points, room for (capacity,) each,
+ * counts int64 (2,), and spans as in Places.
+ * Returns 1, or 0 where the room for points may be too small; OUT_OF_MEMORY or CANCELLED. */
 EXPORT int cl_edge_points(const uint8_t *gray, int width, int height, const float *tables, int columns, int rows,
                           const int32_t *left, const float *rightward, double sigma, double position_sigma,
-                          double weakest, int16_t *gradient_x, int16_t *gradient_y, EdgePoint *points_x,
-                          EdgePoint *points_y, int64_t capacity, uint8_t *occupied_x, uint8_t *occupied_y,
-                          int32_t *before_x, int32_t *before_y, int64_t *counts, Report report) {
+                          double weakest, Steps *gradient, EdgePoint *points_x, EdgePoint *points_y, int64_t capacity,
+                          Span *spans_x, Span *spans_y, int64_t *counts, Report report) {
     const size_t line = (size_t)width;
     float *blended = malloc(sizeof(float) * 2 * (size_t)columns * LEVELS);
     const Equaliser equaliser = {gray, width, height, columns, rows, tables, left, rightward, blended};
@@ -216,10 +215,10 @@ EXPORT int cl_edge_points(const uint8_t *gray, int width, int height, const floa
     uint8_t *marks = malloc(line);
     int32_t *list = malloc(sizeof(int32_t) * 2 * line), *latest = malloc(sizeof(int32_t) * (line + (size_t)height));
     EdgePoint *by_row = malloc(sizeof(EdgePoint) * (size_t)capacity);
-    Pass passes[2] = {{by_row, 0, occupied_x, line_bytes(height), latest},
-                      {points_y, 0, occupied_y, line_bytes(width), latest + width}};
+    Pass passes[2] = {{by_row, 0, spans_x, line_spans(height), latest},
+                      {points_y, 0, spans_y, line_spans(width), latest + width}};
     const int report_rows = clamp(REPORT_PIXELS / width, 16, height > 16 ? height : 16);
-    int status = 0;
+    int status = 1;
     if (!blended || !marks || !list || !latest || !by_row ||
         gradient_open(&equalised, equalised_row, &equaliser, width, height, sigma) ||
         gradient_open(&plain, plain_row, &plain_image, width, height, position_sigma)) {
@@ -235,15 +234,19 @@ EXPORT int cl_edge_points(const uint8_t *gray, int width, int height, const floa
             }
             gradient_advance(&equalised);
             gradient_advance(&plain);
-            const size_t begin = (size_t)row * line;
-            write_steps(kept_row(equalised.x, width, row), width, gradient_x + begin);
-            write_steps(kept_row(equalised.y, width, row), width, gradient_y + begin);
+            write_steps(kept_row(equalised.x, width, row), kept_row(equalised.y, width, row), width,
+                        gradient + (size_t)row * line);
         }
-        if (row >= 3 && row < height + 1) find_points(&equalised, &plain, row - 2, (float)weakest, marks, list, passes);
+        if (row < 3 || row >= height + 1) continue;
+        if (passes[ALONG_X].count + width > capacity || passes[ALONG_Y].count + width > capacity) {
+            status = 0;
+            goto end;
+        }
+        find_points(&equalised, &plain, row - 2, (float)weakest, marks, list, passes);
     }
-    count_before(&passes[ALONG_X], width, before_x);
-    count_before(&passes[ALONG_Y], height, before_y);
-    order_by_line(&passes[ALONG_X], width, before_x, latest, points_x);
+    count_before(&passes[ALONG_X], width);
+    count_before(&passes[ALONG_Y], height);
+    order_by_line(&passes[ALONG_X], width, latest, points_x);
     counts[ALONG_X] = passes[ALONG_X].count;
     counts[ALONG_Y] = passes[ALONG_Y].count;
 end:

@@ -19,10 +19,22 @@ static double gray_change(const Arc *first, const Arc *second) {
 static inline int supports(const Scene *scene, float x, float y, float dx, float dy, float *along) {
     const int column = clamp((int)lrintf(x), 0, scene->width - 1), row = clamp((int)lrintf(y), 0, scene->height - 1);
     const size_t pixel = (size_t)row * (size_t)scene->width + (size_t)column;
-    const float gx = scene->gradient_x[pixel], gy = scene->gradient_y[pixel];
+    const float gx = scene->gradient[pixel].x, gy = scene->gradient[pixel].y;
     const float squared = gx * gx + gy * gy, normal = gy * dx - gx * dy;
     *along = gx * dx + gy * dy;
     return (squared >= SUPPORT_NORM * SUPPORT_NORM) & (normal * normal >= SUPPORT_COSINE * SUPPORT_COSINE * squared);
+}
+
+/* Have memory fetched that effective_gap will read. */
+void fetch_gap(const Scene *scene, Vector leave, Vector enter) {
+    const Vector vector = minus(enter, leave);
+    const int looks = clamp((int)(fabs(vector.x) + fabs(vector.y)) + 1, FEWEST_LOOKS, MOST_LOOKS);
+    for (int i = 0; i < looks; i++) {
+        const double t = (i + 0.5) / looks;
+        const int column = clamp((int)(leave.x + t * vector.x), 0, scene->width - 1);
+        const int row = clamp((int)(leave.y + t * vector.y), 0, scene->height - 1);
+        __builtin_prefetch(&scene->gradient[(size_t)row * (size_t)scene->width + (size_t)column]);
+    }
 }
 
 /* Share of the gap with an edge along it, and whether an edge runs across it. Looks at every place, as none can be

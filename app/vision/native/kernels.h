@@ -42,16 +42,24 @@ typedef struct {
     float norm;    /* gradient norm of the equalised image; negative where it gets darker with rising across */
 } EdgePoint;
 
-/* Gradient of the equalised image in steps of 1 / GRADIENT_SCALE grey levels. */
+/* Gradient of the equalised image at a pixel, in steps of 1 / GRADIENT_SCALE grey levels. */
+typedef struct {
+    int16_t x, y;
+} Steps;
 #define GRADIENT_SCALE 16.0
+
+/* SPAN_PIXELS pixels of a line: which of them have points, the lowest bit first, and how many points come before. */
+typedef struct {
+    int32_t before;
+    uint32_t occupied;
+} Span;
 
 typedef struct {
     int32_t width, height;
     const uint8_t *gray;
-    const int16_t *gradient_x, *gradient_y;
-    const EdgePoint *points[2]; /* of both passes, and where they are; see Places */
-    const uint8_t *occupied[2];
-    const int32_t *before[2];
+    const Steps *gradient;
+    const EdgePoint *points[2]; /* of both passes */
+    const Span *spans[2];       /* where they are; see Places */
 } Scene;
 
 enum { MOMENTS = 9, TRAITS = 3 };
@@ -97,5 +105,6 @@ int64_t split_chain(const float *along, const float *across, int count, int *sta
 /* gaps.c */
 double effective_gap(const Scene *scene, const Arc *first, const Arc *second, Vector leave, Vector enter,
                      int same_polarity);
+void fetch_gap(const Scene *scene, Vector leave, Vector enter);
 
 #endif

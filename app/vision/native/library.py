@@ -35,11 +35,11 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
         [
             *(_p, c_int, c_int, _p, c_int, c_int, _p, _p),
             *(c_double, c_double, c_double),
-            *(_p, _p, _p, _p, c_int64, _p, _p, _p, _p, _p, Report),
+            *(_p, _p, _p, c_int64, _p, _p, _p, Report),
         ],
     ),
     # chains.c
-    "cl_runs": (c_int64, [_p, c_int64, _p, _p, c_int, c_int, c_int, c_double, c_double, _p, _p, _p, _p]),
+    "cl_runs": (c_int64, [_p, c_int64, _p, c_int, c_int, c_int, c_double, c_double, _p, _p, _p, _p]),
     # pieces.c
     "cl_pieces": (None, [_p, c_int, _p, _p, c_int64, _p, c_int, c_int, c_int32, _p]),
     # merging.c

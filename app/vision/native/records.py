@@ -59,12 +59,17 @@ FINDING = np.dtype(
 )
 """What is known of a segment; see `app.vision.selection`."""
 
+CACHE_LINE = 64
+"""Bytes."""
+
 GRADIENT_SCALE = 16.0
 """Gradients are kept as integers, in steps of 1 / 16 grey level."""
 
+SPAN = np.dtype([("before", "i4"), ("occupied", "u4")])
+"""Pixels of a line; see `app.vision.edges.EdgeMap`."""
 
-MARGIN, LINES_BEYOND = 16, 3
-"""Pixels without points on either side of a line of `app.vision.edges.Places`, and such lines after the last."""
+MARGIN, LINES_BEYOND, SPAN_PIXELS = 16, 3, 32
+"""Pixels without points on either side of a line, such lines after the last, and pixels of a `SPAN`."""
 
 
 class Scene(ctypes.Structure):
@@ -74,12 +79,17 @@ class Scene(ctypes.Structure):
         ("width", c_int32),
         ("height", c_int32),
         ("gray", c_void_p),
-        ("gradient_x", c_void_p),
-        ("gradient_y", c_void_p),
+        ("gradient", c_void_p),
         ("points", c_void_p * 2),
-        ("occupied", c_void_p * 2),
-        ("before", c_void_p * 2),
+        ("spans", c_void_p * 2),
     )
+
+
+def aligned(count: int, record: np.dtype[Any]) -> NDArray[Any]:
+    """Return room for records, beginning where a line of the processor's cache does."""
+    memory = np.empty(count * record.itemsize + CACHE_LINE, np.uint8)
+    begin = -memory.ctypes.data % CACHE_LINE
+    return memory[begin : begin + count * record.itemsize].view(record)
 
 
 def address(array: NDArray[Any]) -> int:

@@ -1,7 +1,8 @@
 /* One segment per edge, what speaks for each, and the points measured along it; see app/vision/selection.py. */
 #include "canvas.h"
 
-enum { REPORT_EVERY = 4096 };
+/* in large images the pixels that a steep arc passes are far apart, so each is asked for before its turn */
+enum { REPORT_EVERY = 4096, AHEAD = 16 };
 #define LARGEST_SHARE 0.4
 #define FARTHEST 0.7f /* px, of a returned point from the arc */
 
@@ -63,6 +64,13 @@ static void sample_candidate(const Scene *scene, const Arc *arc, Candidate *cand
 
 static int along_at(Walk walk, int sample) { return walk.first + sample * walk.step; }
 
+/* The candidate of the next lower priority may be anywhere. */
+static void fetch_candidate(const Arc *arcs, const Candidate *candidate, const Sample *samples) {
+    __builtin_prefetch(&arcs[candidate->arc].tangent);
+    const int length = walk_length(candidate->walk);
+    for (int i = 0; i < length; i += 2) __builtin_prefetch(&samples[candidate->begin + i]);
+}
+
 /* What of a candidate no better one covers, and paint it. */
 static Stretch take_free(const Canvas *canvas, const Arc *arc, Walk walk, const Sample *samples) {
     const uint16_t direction = paint_direction(arc);
@@ -70,7 +78,9 @@ static Stretch take_free(const Canvas *canvas, const Arc *arc, Walk walk, const 
     const int length = walk_length(walk);
     int free_samples = 0;
     Stretch stretch = {0, -1};
+    for (int i = 0; i < AHEAD && i < length; i++) fetch_pixel(canvas, walk.axis, along_at(walk, i), &samples[i]);
     for (int i = 0; i < length; i++) {
+        if (i + AHEAD < length) fetch_pixel(canvas, walk.axis, along_at(walk, i + AHEAD), &samples[i + AHEAD]);
         if (!is_free(canvas, walk.axis, along_at(walk, i), &samples[i], direction)) continue;
         if (!free_samples++) stretch.first = i;
         stretch.last = i;
@@ -170,6 +180,7 @@ EXPORT int64_t cl_select(const Scene *scene, const Arc *arcs, int64_t count, dou
             found = CANCELLED;
             goto end;
         }
+        if (i + 1 < listed) fetch_candidate(arcs, &candidates[i + 1], samples);
         const Walk walk = candidates[i].walk;
         const Arc *arc = &arcs[candidates[i].arc];
         const Sample *own = samples + candidates[i].begin;

@@ -51,19 +51,29 @@ FOR_EACH_PROCESSOR static void cross_columns(const Arc *arc, int axis, int first
 enum { NEIGHBOURS = 3 };
 
 static inline Places places_of(const Scene *scene, int axis) {
-    return (Places){scene->occupied[axis], scene->before[axis],
-                    line_bytes(axis == ALONG_X ? scene->height : scene->width)};
+    return (Places){scene->spans[axis], line_spans(axis == ALONG_X ? scene->height : scene->width)};
+}
+
+/* The line that has the points where an arc passes; in the margins there are none, and the lines beyond have none. */
+static inline int line_at(const Scene *scene, int axis, int along) {
+    const int lines = axis == ALONG_X ? scene->width : scene->height;
+    return along >= 0 && along < lines ? along : lines;
+}
+
+static inline int pixel_at(const Scene *scene, int axis, int pixel) {
+    return clamp(pixel, -2, (axis == ALONG_X ? scene->height : scene->width) + 1);
+}
+
+static inline void fetch_place(const Scene *scene, const Places *places, int axis, int along, int pixel) {
+    const size_t span = (size_t)(pixel_at(scene, axis, pixel) - 1 + MARGIN) / SPAN_PIXELS;
+    __builtin_prefetch(places->spans + (size_t)line_at(scene, axis, along) * places->line_spans + span);
 }
 
 /* The points at the pixel that an arc passes and at those on either side of it, -1 where there is none; the middle one
  * first, as it wins a draw. */
 static inline void look_up(const Scene *scene, const Places *places, int axis, int along, int pixel,
                            int32_t rows[NEIGHBOURS]) {
-    const int along_size = axis == ALONG_X ? scene->width : scene->height;
-    const int across_size = axis == ALONG_X ? scene->height : scene->width;
-    /* in the margins there are no points, and the lines beyond have none */
-    const int line = along >= 0 && along < along_size ? along : along_size;
-    const Window window = window_at(places, line, clamp(pixel, -2, across_size + 1) - 1, NEIGHBOURS);
+    const Window window = window_at(places, line_at(scene, axis, along), pixel_at(scene, axis, pixel) - 1, NEIGHBOURS);
     const int32_t below = window.bits & 1, own = window.bits >> 1 & 1, above = window.bits >> 2;
     rows[0] = own ? window.first + below : -1;
     rows[1] = below ? window.first : -1;
@@ -98,8 +108,8 @@ static inline Sample sample_crossing(const EdgePoint *points, const int32_t rows
                     hit * HIT | close * CLOSE | loose * LOOSE};
 }
 
-/* In three rounds, each of which has the memory fetched that the next one reads. */
-void sample_walk(const Scene *scene, const Arc *arc, Walk walk, Sample *samples) {
+/* In rounds, each of which has the memory fetched that the next one reads. */
+FOR_EACH_PROCESSOR void sample_walk(const Scene *scene, const Arc *arc, Walk walk, Sample *samples) {
     Crossings crossings;
     int32_t rows[BATCH][NEIGHBOURS], pixels[BATCH];
     const EdgePoint *points = scene->points[walk.axis];
@@ -110,6 +120,9 @@ void sample_walk(const Scene *scene, const Arc *arc, Walk walk, Sample *samples)
         cross_columns(arc, walk.axis, first, walk.step, count, &crossings);
         for (int i = 0; i < count; i++) {
             pixels[i] = (int)lrint(crossings.across[i]);
+            fetch_place(scene, &places, walk.axis, first + i * walk.step, pixels[i]);
+        }
+        for (int i = 0; i < count; i++) {
             look_up(scene, &places, walk.axis, first + i * walk.step, pixels[i], rows[i]);
             for (int k = 0; k < NEIGHBOURS; k++) __builtin_prefetch(points + (rows[i][k] > 0 ? rows[i][k] : 0));
         }

@@ -11,10 +11,23 @@ import pytest
 
 from app.errors import BrokenInstallation
 from app.vision.native import library as module
-from app.vision.native.records import ARC, FINDING, JOIN, LINES_BEYOND, MARGIN, POINT, Scene, address
+from app.vision.native.records import (
+    ARC,
+    CACHE_LINE,
+    FINDING,
+    JOIN,
+    LINES_BEYOND,
+    MARGIN,
+    POINT,
+    SPAN,
+    SPAN_PIXELS,
+    Scene,
+    address,
+    aligned,
+)
 
 NATIVE = Path(module.__file__).parent
-SIZES = {"int32_t": 4, "float": 4, "double": 8}
+SIZES = {"int32_t": 4, "uint32_t": 4, "float": 4, "double": 8}
 
 
 def declared(source: str, name: str) -> list[tuple[str, int]]:
@@ -23,7 +36,9 @@ def declared(source: str, name: str) -> list[tuple[str, int]]:
     constants = {"MOMENTS": 9, "TRAITS": 3}
     (body,) = re.findall(rf"typedef struct \{{([^{{}}]*)\}} {name};", text)
     fields = []
-    for kind, names in re.findall(r"(int32_t|float|double) ([^;]+);", re.sub(r"/\*.*?\*/", "", body, flags=re.DOTALL)):
+    for kind, names in re.findall(
+        r"(u?int32_t|float|double) ([^;]+);", re.sub(r"/\*.*?\*/", "", body, flags=re.DOTALL)
+    ):
         for field in names.split(","):
             base, _, count = field.strip().rstrip("]").partition("[")
             fields.append((base, SIZES[kind] * int(constants.get(count, count) or 1)))
@@ -32,7 +47,12 @@ def declared(source: str, name: str) -> list[tuple[str, int]]:
 
 @pytest.mark.parametrize(
     ("record", "source", "name"),
-    [(POINT, "kernels.h", "EdgePoint"), (ARC, "kernels.h", "Arc"), (FINDING, "selection.c", "Finding")],
+    [
+        (POINT, "kernels.h", "EdgePoint"),
+        (SPAN, "kernels.h", "Span"),
+        (ARC, "kernels.h", "Arc"),
+        (FINDING, "selection.c", "Finding"),
+    ],
 )
 def test_a_record_has_the_fields_of_its_declaration(record: np.dtype, source: str, name: str) -> None:
     assert [(field, record[field].itemsize) for field in record.names or ()] == declared(source, name)
@@ -50,8 +70,16 @@ def test_the_scene_has_the_order_of_its_declaration() -> None:
 
 
 def test_lines_have_the_margins_of_their_declaration() -> None:
-    declared_sizes = re.findall(r"(MARGIN|LINES_BEYOND) = (\d+)", (NATIVE / "places.h").read_text())
-    assert declared_sizes == [("MARGIN", str(MARGIN)), ("LINES_BEYOND", str(LINES_BEYOND))]
+    declared_sizes = re.findall(r"(MARGIN|LINES_BEYOND|SPAN_PIXELS) = (\d+)", (NATIVE / "places.h").read_text())
+    numbers = {"MARGIN": MARGIN, "LINES_BEYOND": LINES_BEYOND, "SPAN_PIXELS": SPAN_PIXELS}
+    assert {name: int(number) for name, number in declared_sizes} == numbers
+
+
+def test_aligned_records_begin_where_cache_lines_do() -> None:
+    for count in (1, 2, 5):
+        arcs = aligned(count, ARC)
+        assert arcs.shape == (count,)
+        assert address(arcs) % CACHE_LINE == 0
 
 
 def test_only_contiguous_memory_has_an_address() -> None:
