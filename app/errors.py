@@ -5,6 +5,7 @@
             InvalidImage            not an image, or a kind that isn't read             422
             InvalidSegments         points or offsets that make no segments             422
             InvalidFile             a label, prediction or archive file                 422
+            NoEdge                  nothing in the image to trace                       422
         TooLarge                    over a limit that a setting names                   413
         NotFound                    no such dataset, image, run...                      404
             NoHistory               a segment that nobody can tell how it was found     404
@@ -116,6 +117,12 @@ class InvalidFile(InvalidInput):
     """A label, prediction or archive file that can't be read."""
 
     code = "invalid-file"
+
+
+class NoEdge(InvalidInput):
+    """Nothing in the image runs where an edge was to be traced."""
+
+    code = "no-edge"
 
 
 class TooLarge(ClearLinesError):
