@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from app.commands.evaluated_images import describe_images
+from app.commands.evaluated_labels import read_labels, read_plain
 from app.commands.pictures import find_images, write_picture
-from app.commands.segment_files import Read, SegmentFiles, one_error, open_segment_files
+from app.commands.segment_files import SegmentFiles, one_error, open_segment_files
 from app.commands.whole_files import json_bytes, write_whole
 from app.errors import ClearLinesError, InvalidInput
-from app.evaluation import GroundTruth, ground_truth, protocol_named
+from app.evaluation import protocol_named
 from app.evaluation.bootstrap import DRAWS
 from app.evaluation.official_v1 import PROTOCOL
 from app.evaluation.protocols import Score
@@ -29,7 +30,6 @@ from app.evaluation.submission_scoring import (
 from app.evaluation.summary import Evaluation, summary_text
 from app.evaluation.summary_json import image_content, summary_content
 from app.evaluation.table_one import SHOWN, TableRow, table_rows
-from app.vision.segments import Segments
 
 DEFAULT_PICTURES = Path("evaluation/visualization")
 
@@ -96,8 +96,8 @@ class _Task:
 
     def read(self, info: SplitImageInfo) -> ScoredImage:
         """Return truth and predictions of an image."""
-        truth = _truth(info.name, self.truth, self.min_length)
-        return ScoredImage(info, truth, _read(self.predictions.files, info.name))
+        truth, rejected = read_labels(self.truth, info.name, self.min_length)
+        return ScoredImage(info, truth, read_plain(self.predictions.files, info.name), rejected)
 
 
 def evaluate(
@@ -226,20 +226,3 @@ def _write_image(
         except ClearLinesError as error:
             return [error]
     return []
-
-
-def _truth(name: str, files: SegmentFiles, min_length: float) -> GroundTruth:
-    """Return the labels of an image; of a file with verdicts those kept, the ambiguous ones being ignored."""
-    ambiguous = _read(files.ambiguous, name)
-    if name not in files.files:
-        return ground_truth(Segments.empty(), ambiguous, min_length)
-    labelled = files.files[name]()
-    if labelled.verdicts is None:
-        return ground_truth(labelled.segments, ambiguous, min_length)
-    unsure = labelled.with_verdict("ambiguous").segments
-    both = Segments.from_list([*unsure, *ambiguous])
-    return ground_truth(labelled.with_verdict("keep").segments, both, min_length)
-
-
-def _read(files: Mapping[str, Read], name: str) -> Segments:
-    return files[name]().segments if name in files else Segments.empty()

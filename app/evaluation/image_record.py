@@ -16,6 +16,7 @@ from app.evaluation.average_precision import Ranked
 from app.evaluation.bootstrap import or_none
 from app.evaluation.outcome import Outcomes
 from app.evaluation.protocols import PROTOCOLS
+from app.evaluation.rejected_lines import NO_REASON, no_reasons
 
 _TALLIES = "tallies:"
 _ARRAYS = (
@@ -29,6 +30,8 @@ _ARRAYS = (
     "prediction_errors",
     "label_errors",
     "strata",
+    "prediction_reasons",
+    "reasons",
 )
 _UNREADABLE = (ValueError, TypeError, KeyError, OSError, EOFError, zipfile.BadZipFile, zlib.error)
 
@@ -51,6 +54,9 @@ class ImageRecord:
         label_errors: int8 ``(L,)``, `ErrorType`.
         strata: float64 ``(S, 3)``, see `app.evaluation.strata.stratum_tallies`.
         ranked: What average precision is made of; ``None`` where predictions have no scores.
+        prediction_reasons: int8 ``(P,)``, why people rejected the line that a false positive is, see
+            `app.evaluation.rejected_lines.reasons_of`.
+        reasons: float64 ``(5, 2)``, see `app.evaluation.rejected_lines.reason_tallies`.
     """
 
     tallies: Mapping[str, NDArray[np.float64]]
@@ -65,6 +71,8 @@ class ImageRecord:
     label_errors: NDArray[np.int8]
     strata: NDArray[np.float64]
     ranked: Ranked | None
+    prediction_reasons: NDArray[np.int8]
+    reasons: NDArray[np.float64]
 
     @property
     def outcomes(self) -> Outcomes:
@@ -112,6 +120,9 @@ class ImageRecord:
             tallies = {
                 name.removeprefix(_TALLIES): array for name, array in arrays.items() if name.startswith(_TALLIES)
             }
+            # records of before reasons were frozen with labels
+            arrays.setdefault("prediction_reasons", np.full(len(arrays["best_label"]), NO_REASON, np.int8))
+            arrays.setdefault("reasons", no_reasons())
             return cls(tallies, **{name: arrays[name] for name in _ARRAYS}, ranked=ranked)
         except _UNREADABLE as error:
             raise InvalidFile("a record of scores can't be read", expected="npz as it was written") from error

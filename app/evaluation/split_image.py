@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.evaluation.ground_truth import GroundTruth
+from app.evaluation.rejected_lines import RejectedLines
 from app.vision.segments import Segments
 
 
@@ -46,8 +47,10 @@ class ScoredImage:
         info: What the split knows of it.
         truth: Its L labels.
         predictions: All P segments that were submitted for it, px.
+        rejected: Candidates that people rejected with a reason; they change no score.
     """
 
     info: SplitImageInfo
     truth: GroundTruth
     predictions: Segments
+    rejected: RejectedLines | None = None

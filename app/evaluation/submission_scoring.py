@@ -19,6 +19,7 @@ from app.evaluation.error_types import ErrorType, error_types
 from app.evaluation.image_record import ImageRecord
 from app.evaluation.outcome import Outcome
 from app.evaluation.protocols import PROTOCOLS, Score
+from app.evaluation.rejected_lines import NO_REASON, reason_tallies, reasons_of
 from app.evaluation.split_image import ScoredImage, SplitImageInfo
 from app.evaluation.strata import stratum_tallies
 from app.evaluation.submission_totals import measure_of, score_totals
@@ -84,6 +85,11 @@ def score_image(image: ScoredImage, min_length: float = 0.0) -> tuple[ImageRecor
     offset, angle = np.full((2, len(predictions)), np.nan)
     offset[matches.row], angle[matches.row] = score.localization.offset_mean, score.localization.angle
 
+    rejected = None if image.rejected is None else image.rejected.of_least(min_length)
+    wrong = np.flatnonzero(score.outcomes.predictions == Outcome.FALSE_ALARM)
+    reasons = np.full(len(predictions), NO_REASON, np.int8)
+    reasons[wrong] = reasons_of(rejected, predictions.select(wrong))
+
     def of_all(values: NDArray[Any], otherwise: float) -> NDArray[Any]:
         filled = np.full(len(submitted), otherwise, values.dtype)
         filled[kept] = values
@@ -102,6 +108,8 @@ def score_image(image: ScoredImage, min_length: float = 0.0) -> tuple[ImageRecor
         label_errors=kinds.labels,
         strata=stratum_tallies(truth.segments, predictions, score.outcomes, image.info.size),
         ranked=score.ranked,
+        prediction_reasons=of_all(reasons, NO_REASON),
+        reasons=reason_tallies(rejected, reasons),
     )
     return record, scores
 

@@ -15,6 +15,7 @@ from app.evaluation.calibration_score import CalibrationScore, total_calibration
 from app.evaluation.error_types import ErrorType
 from app.evaluation.image_record import ImageRecord
 from app.evaluation.protocols import PROTOCOLS, SCORER_VERSION, protocol_named
+from app.evaluation.rejected_lines import REASON, reason_strata
 from app.evaluation.split_image import SplitImageInfo
 from app.evaluation.strata import STRATA, stratum_metrics
 from app.evaluation.tallies import GRID_TAUS, GRID_THRESHOLDS, LAYOUT
@@ -121,7 +122,11 @@ def _strata(
     draws: int,
     seed: int,
 ) -> dict[str, list[dict[str, Any]]]:
-    """Return M9: of each kind the strata, each with its counts and metrics; by distance only if all sizes are known."""
+    """Return M9: of each kind the strata, each with its counts and metrics; by distance only if all sizes are known.
+
+    The kind ``reason`` is there where candidates are known that people rejected with one, see
+    `app.evaluation.rejected_lines.reason_strata`.
+    """
 
     def stratum(name: str, counts: NDArray[np.float64]) -> dict[str, Any]:
         found = estimates(lambda weights: stratum_metrics(weights @ counts), clusters, draws, seed=seed)
@@ -143,6 +148,8 @@ def _strata(
         if kind != "distance" or all(image.size for image in images):
             strata[kind] = [stratum(name, by_stratum[:, first + place]) for place, name in enumerate(names)]
         first += len(names)
+    if reasons := reason_strata(np.array([record.reasons for record in records]), clusters, draws, seed):
+        strata[REASON] = reasons
     return strata
 
 

@@ -12,6 +12,7 @@ from app.evaluation.consequences import consequences
 from app.evaluation.metric_labels import METRIC_LABELS
 from app.evaluation.outcome import Outcome
 from app.evaluation.protocols import PROTOCOLS, Score
+from app.evaluation.rejected_lines import REASON
 from app.evaluation.tallies import THRESHOLD
 
 _BOXES = (official_v1.PROTOCOL, official_v1_fixed.PROTOCOL)
@@ -89,7 +90,8 @@ def summary_text(evaluation: Evaluation) -> str:
     known = evaluation.consequences()
     if known:
         lines += ["", "What to know about these numbers:", *(f"- {consequence}" for consequence in known)]
-    lines += [*_metrics(evaluation.totals), *_errors(evaluation.totals), *_strata(evaluation.totals)]
+    totals = evaluation.totals
+    lines += [*_metrics(totals), *_errors(totals), *_strata(totals), *_reasons(totals)]
     for title, names in (
         ("Images without a prediction file, scored as empty", evaluation.missing),
         ("Predictions without a label file, not scored", evaluation.extra),
@@ -161,8 +163,20 @@ def _errors(totals: Mapping[str, Any]) -> list[str]:
 def _strata(totals: Mapping[str, Any]) -> list[str]:
     lines = ["", f"clearlines-v2 by kind of line:{'F1':>15}{'P':>8}{'R':>8}{'TP':>8}{'FP':>8}{'FN':>8}"]
     for kind, strata in totals["strata"].items():
-        for stratum in strata:
+        for stratum in strata if kind != REASON else ():
             shares = "".join(f"{stratum[key]['value']:>8.3f}" for key in ("f1", "precision", "recall"))
             counts = "".join(f"{stratum[key]:>8}" for key in ("tp", "fp", "fn"))
             lines.append(f"  {kind + ' ' + stratum['name']:<{_WIDTH - 3}}{shares}{counts}")
     return lines
+
+
+def _reasons(totals: Mapping[str, Any]) -> list[str]:
+    strata = totals["strata"].get(REASON, ())
+    return ["", "Lines that people rejected, found all the same:", *map(_reason, strata)] if strata else []
+
+
+def _reason(stratum: Mapping[str, Any]) -> str:
+    share = stratum["share"]
+    interval = "" if share["low"] is None else f"  [{share['low']:.3f}, {share['high']:.3f}]"
+    counts = f"{stratum['fp']} of {stratum['candidates']}"
+    return f"  {stratum['name'].replace('_', ' '):<{_WIDTH + 2}}{share['value']:>8.3f}{interval}  ({counts})"

@@ -15,6 +15,7 @@ from app.evaluation.official_v1 import ImageScore as OfficialScore
 from app.evaluation.official_v1_fixed import ImageScore as FixedScore
 from app.evaluation.outcome import Outcome
 from app.evaluation.protocols import Score
+from app.evaluation.rejected_lines import reason_name
 from app.evaluation.summary import Evaluation
 from app.evaluation.tallies import THRESHOLD
 
@@ -89,6 +90,7 @@ def _fields(score: Score, record: ImageRecord, index: NDArray[np.int64]) -> dict
         "offset": [or_none(value) for value in record.offset[index]],
         "angle": [or_none(value) for value in record.angle[index]],
         "error_type": _error_types(record.prediction_errors[index]),
+        "rejected_as": [reason_name(place) for place in record.prediction_reasons[index].tolist()],
     }
 
 

@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.errors import InvalidFile, InvalidInput, TooLarge
-from app.formats.labelled import ORIGINS, VERDICTS, LabelledSegments
+from app.errors import InvalidFile, InvalidInput, InvalidSegments, TooLarge
+from app.formats.labelled import ORIGINS, REASONS, VERDICTS, LabelledSegments
 from app.formats.limits import SEGMENT_LIMITS, SET_LIMITS, SegmentLimits, SetLimits
 from app.formats.naming import check_names, composed, has_control_characters
 from app.formats.polylines import check_counts, check_file_size, segments_from_arrays
 from app.vision.segments import Segments
 
 WORD_LIMIT = 200
-FIELDS = ("points", "score", "straightness", "verdict", "origin", "id")
+FIELDS = ("points", "score", "straightness", "verdict", "reason", "origin", "id")
 
 
 def read_json(data: bytes, *, where: str = "file", limits: SegmentLimits = SEGMENT_LIMITS) -> LabelledSegments:
@@ -107,13 +107,17 @@ def segments_from_json(value: Any, *, where: str, limits: SegmentLimits = SEGMEN
     arrays = [_points(entry["points"], f"{where}: segment {index}") for index, entry in enumerate(entries)]
     segments = segments_from_arrays(arrays, where=where, limits=limits)
     scores = _numbers(entries, "score", where)
-    return LabelledSegments(
-        Segments(segments.points, segments.offsets, scores),
+    fields = (
         _numbers(entries, "straightness", where),
         _words(entries, "verdict", VERDICTS, where),
         _words(entries, "origin", ORIGINS, where),
         _words(entries, "id", None, where),
+        _words(entries, "reason", REASONS, where),
     )
+    try:
+        return LabelledSegments(Segments(segments.points, segments.offsets, scores), *fields)
+    except InvalidSegments as error:  # a reason without a rejection
+        raise InvalidFile(error.message, where=f"{where}: {error.where}", expected=error.expected) from error
 
 
 def _no_constant(name: str) -> Any:

@@ -31,6 +31,7 @@ def json_value(labelled: LabelledSegments) -> dict[str, Any]:
         "score": None if segments.scores is None else shortest(segments.scores).tolist(),
         "straightness": None if labelled.straightness is None else shortest(labelled.straightness).tolist(),
         "verdict": labelled.verdicts,
+        "reason": labelled.reasons,
         "origin": labelled.origins,
         "id": labelled.ids,
     }

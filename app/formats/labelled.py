@@ -1,4 +1,4 @@
-"""What a file holds beyond the points: straightness, verdict, origin and id of each segment."""
+"""What a file holds beyond the points: straightness, verdict, reason, origin and id of each segment."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from app.vision.segments import Segments
 
 VERDICTS = ("keep", "reject", "ambiguous", "undecided")
 ORIGINS = ("pipeline", "manual", "import")
+REASONS = ("car", "lane_marking", "curved", "shadow", "other")
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,9 +26,11 @@ class LabelledSegments:
         verdicts: One of `VERDICTS` or ``None`` per segment; ``None`` if no segment has one.
         origins: One of `ORIGINS` or ``None`` per segment; ``None`` if no segment has one.
         ids: Identity of each segment in the system it comes from; ``None`` if no segment has one.
+        reasons: Why a rejected segment is rejected, one of `REASONS` or ``None`` per segment; ``None`` if none has one.
 
     Raises:
-        InvalidSegments: If a field hasn't one value per segment, or a value isn't one of the known words.
+        InvalidSegments: If a field hasn't one value per segment, a value isn't one of the known words, or a segment
+            that isn't rejected has a reason.
     """
 
     segments: Segments
@@ -35,21 +38,30 @@ class LabelledSegments:
     verdicts: tuple[str | None, ...] | None = None
     origins: tuple[str | None, ...] | None = None
     ids: tuple[str | None, ...] | None = None
+    reasons: tuple[str | None, ...] | None = None
 
     def __post_init__(self) -> None:
         count = len(self.segments)
         if self.straightness is not None:
             object.__setattr__(self, "straightness", np.ascontiguousarray(self.straightness, dtype=np.float32))
-        for name in ("straightness", "verdicts", "origins", "ids"):
+        for name in ("straightness", "verdicts", "origins", "ids", "reasons"):
             values = getattr(self, name)
             if values is not None and len(values) != count:
                 raise InvalidSegments(f"{len(values)} {name} for {count} segments", where=name, expected=str(count))
-        for name, known in (("verdicts", VERDICTS), ("origins", ORIGINS)):
+        for name, known in (("verdicts", VERDICTS), ("origins", ORIGINS), ("reasons", REASONS)):
             for index, value in enumerate(getattr(self, name) or ()):
                 if value is not None and value not in known:
                     raise InvalidSegments(
                         f"{value!r} is not known", where=f"segment {index}, {name}", expected=", ".join(known)
                     )
+        verdicts = self.verdicts or (None,) * count
+        for index, (reason, verdict) in enumerate(zip(self.reasons or (), verdicts, strict=False)):
+            if reason is not None and verdict != "reject":
+                raise InvalidSegments(
+                    f"the reason {reason!r} is for nothing",
+                    where=f"segment {index}, reasons",
+                    expected="a reason with the verdict 'reject' alone",
+                )
 
     def __len__(self) -> int:
         return len(self.segments)
@@ -61,7 +73,12 @@ class LabelledSegments:
         same_straightness = (mine is None) == (theirs is None) and (
             mine is None or theirs is None or np.array_equal(mine, theirs)
         )
-        words = (self.verdicts, self.origins, self.ids) == (other.verdicts, other.origins, other.ids)
+        words = (self.verdicts, self.origins, self.ids, self.reasons) == (
+            other.verdicts,
+            other.origins,
+            other.ids,
+            other.reasons,
+        )
         return same_straightness and words and self.segments == other.segments
 
     __hash__ = None  # type: ignore[assignment]
@@ -80,6 +97,7 @@ class LabelledSegments:
             pick(self.verdicts),
             pick(self.origins),
             pick(self.ids),
+            pick(self.reasons),
         )
 
     def with_verdict(self, *verdicts: str) -> LabelledSegments:

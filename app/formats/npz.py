@@ -86,7 +86,7 @@ def read_npz_set(data: bytes, *, where: str = "file", limits: SetLimits = SET_LI
 
 
 def write_npz(labelled: LabelledSegments) -> bytes:
-    """Write the segments of one image; origins and ids are left out, and so is what is unknown."""
+    """Write the segments of one image; origins, ids and reasons are left out, and so is what is unknown."""
     segments = labelled.segments
     arrays: dict[str, NDArray[Any]] = {"points": segments.points, "offsets": segments.offsets}
     if segments.scores is not None:

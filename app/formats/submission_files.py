@@ -85,7 +85,7 @@ def read_submission(
             segments = check_segments(matched[image.name], (image.width, image.height), limits, complaints)
             checked[image.name] = segments or Segments.empty()
     if not matched and not complaints.count:
-        complaints.add(Problem("there is no file for any image of the split", name, expected=ACCEPTED))
+        complaints.add(Problem("there is no file for any of the images", name, expected=ACCEPTED))
     complaints.raise_any(name)
     missing = tuple(image.name for image in images if image.name not in matched)
     filled = [segments for segments in checked.values() if len(segments)]

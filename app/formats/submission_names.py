@@ -32,8 +32,8 @@ def match_names(found: Sequence[RawSegments], names: Collection[str], complaints
         if name is None:
             # a hint takes a while, and beyond the limit nobody is told it
             hint = _nearest(segments.name, known) if complaints.has_room else None
-            expected = "the name of one of the split's images, or that and " + FILTERED
-            complaints.add(Problem("the split has no image of this name", segments.file, expected=expected, hint=hint))
+            expected = "the name of one of the images, or that and " + FILTERED
+            complaints.add(Problem("there is no image of this name", segments.file, expected=expected, hint=hint))
         elif name in matched:
             message = f"a second file for the image {name}; the first is {matched[name].file}"
             complaints.add(Problem(message, segments.file, expected="one file for each image"))

@@ -173,6 +173,24 @@ def test_of_labels_with_verdicts_those_kept_count(folders: Path) -> None:
     assert one["labels"] == 1
 
 
+def test_labels_that_say_why_lines_are_rejected_tell_of_what_kind_wrong_lines_are(folders: Path) -> None:
+    lines = [horizontal(20), horizontal(40), horizontal(60), horizontal(80)]
+    verdicts, reasons = ("keep", "reject", "reject", "reject"), (None, "lane_marking", "shadow", None)
+    save(folders / "labels/other.json", lines, verdicts=verdicts, reasons=reasons)
+    save(folders / "found/other_edge_segments_filtered.npy", [lines[1], lines[0], lines[3]])
+    evaluate(folders / "labels", folders / "found", pictures=folders / "out/p", scoring=Scoring("clearlines-v2"))
+    one = read(folders / "out/individual_results/other.json")
+    assert [row["rejected_as"] for row in one["prediction_outcomes"]] == ["lane_marking", None, None]
+    marking, shadow = read(folders / "out/summary.json")["totals"]["strata"]["reason"]
+    assert (marking["name"], marking["fp"], marking["candidates"]) == ("lane_marking", 1, 1)
+    assert (shadow["name"], shadow["fp"], shadow["candidates"]) == ("shadow", 0, 1)
+    text = (folders / "out/summary.txt").read_text()
+    assert [line.split() for line in text.partition("found all the same:\n")[2].splitlines()[:2]] == [
+        ["lane", "marking", "1.000", "[1.000,", "1.000]", "(1", "of", "1)"],
+        ["shadow", "0.000", "[0.000,", "0.000]", "(0", "of", "1)"],
+    ]
+
+
 def test_short_lines_can_be_left_out(folders: Path) -> None:
     save(folders / "labels/other.json", [horizontal(20), horizontal(60, 40)])
     save(folders / "found/other_edge_segments_filtered.npy", [horizontal(80, 40), horizontal(20), horizontal(60, 60)])

@@ -102,7 +102,7 @@ def test_results_are_checked_handed_in_and_scored(
     assert "3 things are wrong" in refused
     assert "a/two.json, segment 0, point 1: a coordinate is not finite" in refused
     assert "a/two.json, segment 1: a segment has no points" in refused
-    assert "a/four.json: the split has no image of this name" in refused
+    assert "a/four.json: there is no image of this name" in refused
 
     assert (
         "there is no split nowhere"

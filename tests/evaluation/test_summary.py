@@ -85,6 +85,7 @@ def test_every_protocol_and_its_intervals_are_listed_whatever_comes_first(images
         assert "Errors under clearlines-v2: 2 duplicate, 2 background, 2 missed" in lines
         assert any(line.split()[:3] == ["orientation", "horizontal", "0.250"] for line in lines)
         assert any(line.startswith("    Recall exceeds 1") for line in lines)
+        assert not any("people rejected" in line for line in lines)
 
 
 def test_every_metric_but_counts_and_grid_has_a_label() -> None:

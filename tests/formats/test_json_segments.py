@@ -29,9 +29,15 @@ def test_a_file_as_a_person_writes_it():
     assert (found.verdicts, found.origins, found.ids) == (("keep", None), ("import", None), ("7", None))
 
 
+def test_a_rejection_may_have_a_reason():
+    found = read_json(document({"points": [[1, 2]], "verdict": "reject", "reason": "shadow"}, {"points": [[3, 4]]}))
+    assert (found.verdicts, found.reasons) == (("reject", None), ("shadow", None))
+
+
 def test_only_points_are_needed():
     found = read_json(document({"points": [[1, 2]]}))
     assert found.segments.scores is found.straightness is found.verdicts is found.origins is found.ids is None
+    assert found.reasons is None
 
 
 @pytest.mark.parametrize(
@@ -73,6 +79,17 @@ def test_only_points_are_needed():
         ),
         (document({"points": [[1, 2]], "straightness": -1}), "no straightness", "a.json: segment 0, straightness"),
         (document({"points": [[1, 2]], "verdict": "Keep"}), "no verdict", "a.json: segment 0, verdict"),
+        (
+            document({"points": [[1, 2]], "verdict": "reject", "reason": "rain"}),
+            "no reason",
+            "a.json: segment 0, reason",
+        ),
+        (
+            document({"points": [[1, 2]]}, {"points": [[1, 2]], "verdict": "keep", "reason": "car"}),
+            "for nothing",
+            "a.json: segment 1, reasons",
+        ),
+        (document({"points": [[1, 2]], "reason": "car"}), "for nothing", "a.json: segment 0, reasons"),
         (document({"points": [[1, 2]], "origin": 3}), "no origin", "a.json: segment 0, origin"),
         (document({"points": [[1, 2]], "id": 3}), "no id", "a.json: segment 0, id"),
         (document({"points": [[1, 2]], "id": "a\u0000"}), "no id", "a.json: segment 0, id"),

@@ -20,7 +20,7 @@ from app.formats.inert_npy import read_label_npy
 from app.formats.json_segments import read_json, read_json_set
 from app.formats.json_writer import write_json, write_json_set
 from app.formats.label_npy import write_label_npy
-from app.formats.labelled import ORIGINS, VERDICTS, LabelledSegments
+from app.formats.labelled import ORIGINS, REASONS, VERDICTS, LabelledSegments
 from app.formats.labelled_image import LabelledImage
 from app.formats.members import stream_zip
 from app.formats.npz import is_npz_set, read_npz, read_npz_set, write_npz, write_npz_set
@@ -51,14 +51,19 @@ def labelled(draw, with_fields=None):
         return None if given is None or set(given) == {None} else tuple(given)
 
     straightness = values(fraction)
+    verdicts = words(st.sampled_from([*VERDICTS, None]))
+    rejected = [verdict == "reject" for verdict in verdicts or ()]
+    given = words(st.sampled_from([*REASONS, None])) if any(rejected) else None
+    reasons = tuple(reason if known else None for reason, known in zip(given or (), rejected, strict=False))
     return LabelledSegments(
         Segments.from_list(lines, values(fraction)),
         None if straightness is None else np.array(straightness, np.float32),
-        words(st.sampled_from([*VERDICTS, None])),
+        verdicts,
         words(st.sampled_from([*ORIGINS, None])),
         words(
             st.one_of(st.none(), st.text(st.characters(exclude_categories=["Cc", "Cs", "Zl", "Zp", "Cn"]), max_size=5))
         ),
+        reasons if any(reasons) else None,
     )
 
 
@@ -91,7 +96,7 @@ def test_label_npy_holds_the_points_and_numpy_reads_the_same(item):
 
 @some
 @given(labelled())
-def test_npz_holds_all_but_origins_and_ids(item):
+def test_npz_holds_all_but_origins_ids_and_reasons(item):
     back = read_npz(write_npz(item))
     assert back == LabelledSegments(item.segments, item.straightness, item.verdicts)
 

@@ -146,8 +146,8 @@ def test_all_that_is_wrong_is_told_at_once_with_its_place() -> None:
         (first, 4, 1, "a point lies far outside the image"),
         (first, 4, None, "True is no score"),
         ("KITTI/000001.npy", None, None, "this is no .npy file, or its header is broken"),
-        ("KITTI/000007.npz", None, None, "the split has no image of this name"),
-        ("kitti/000002.npz", None, None, "the split has no image of this name"),
+        ("KITTI/000007.npz", None, None, "there is no image of this name"),
+        ("kitti/000002.npz", None, None, "there is no image of this name"),
     }
     hints = {each["file"]: each["hint"] for each in problems("a.zip", data)}
     assert hints["kitti/000002.npz"] == "is it KITTI/000002?"
