@@ -22,10 +22,15 @@ $(STAMP): pyproject.toml requirements.lock build_hook.py build_frontend.py build
 demo: setup
 	$(BIN)/clearlines demo $(ARGS)
 
+# A thread per process, there are as many as cores. Byte code is kept: else each server would compile all it imports.
+test: export OMP_NUM_THREADS = 1
+test: export OPENBLAS_NUM_THREADS = 1
+test: export OPENCV_FOR_THREADS_NUM = 1
+test: export PYTHONDONTWRITEBYTECODE =
 test: lint
 	$(NODE) vitest run
 	$(BIN)/python tools/browser.py
-	$(BIN)/pytest -n 2 --dist loadgroup $(ARGS)
+	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 lint: setup
 	$(BIN)/ruff check .

@@ -1,8 +1,9 @@
-"""Databases for tests: each test that asks for ``database`` runs on SQLite and on a real PostgreSQL.
+"""What all tests share: the order in which they run, and databases.
 
-The PostgreSQL server comes from ``CLEARLINES_TEST_POSTGRES`` (an address whose user may create databases), else from
-a wheel: one private server per test process, started when the first test asks for it. The tables are migrated
-once per process into a template that each test's own database is a copy of.
+Each test that asks for ``database`` runs on SQLite and on a real PostgreSQL. That server comes from
+``CLEARLINES_TEST_POSTGRES`` (an address whose user is a superuser), else from a wheel: one private server per test
+process, started when the first test asks for it. The tables are migrated once per process: a SQLite file is copied for
+each test, the rows of the PostgreSQL database are deleted.
 """
 
 from __future__ import annotations
@@ -14,18 +15,67 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
+import psycopg
 import pytest
 from hypothesis import settings
-from sqlalchemy import create_engine, event, make_url, text
+from sqlalchemy import event, make_url
 
+from app.db.models import Base
 from app.db.session import Database, open_database, upgrade
 
 # a machine that does other things meanwhile must not fail a property
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
 
-TEMPLATE = f"clearlines_template_{os.getpid()}"
+FIRST = ("e2e", "packaging", "commands", "jobs", "api", "synthesis", "services")
+"""Folders whose files take long, in the order they begin: none of them may be what is waited for at the end."""
+
+EMPTY = """
+DO $$
+DECLARE
+  found record;
+BEGIN
+  PERFORM pg_terminate_backend(pid, 10000) FROM pg_stat_activity
+    WHERE datname = current_database() AND backend_type = 'client backend' AND pid <> pg_backend_pid();
+  SET LOCAL session_replication_role = replica;
+  FOR found IN SELECT tablename FROM pg_tables
+    WHERE schemaname = 'public' AND tablename NOT IN ('alembic_version', 'installations') LOOP
+    EXECUTE format('DELETE FROM %I', found.tablename);
+  END LOOP;
+  PERFORM setval(format('%I', sequencename)::regclass, 1, false) FROM pg_sequences WHERE schemaname = 'public';
+END $$
+"""
+"""Ends whoever is left, deletes all rows but those of the migrations (foreign keys asleep), and counts from 1 again."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the folders named FIRST in front; within a folder the order stays."""
+
+    def place(item: pytest.Item) -> int:
+        folder = item.path.parent.relative_to(item.config.rootpath / "tests").parts[:1]
+        return FIRST.index(folder[0]) if folder and folder[0] in FIRST else len(FIRST)
+
+    items.sort(key=place)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give each file to one process as a whole, and all browser tests to the same: one browser and one server do.
+
+    Groups by mark (``--dist loadgroup``) are lost without a word since pytest 9.2 has structured node ids.
+    """
+    if config.getoption("dist") != "loadfile":
+        return None
+    from xdist.scheduler import LoadScopeScheduling
+
+    class FileScheduling(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.split("::", 1)[0]
+            return "tests/e2e" if file.startswith("tests/e2e/") else file
+
+    return FileScheduling(config, log)
 
 
 @pytest.fixture(scope="session")
@@ -55,53 +105,57 @@ def postgres_server() -> Iterator[str]:
 
     server = get_server(folder / "data", cleanup_mode="delete")
     in_a_hurry = ("fsync", "synchronous_commit", "full_page_writes")  # what a test stored needs to survive no crash
+    settings = [f"ALTER SYSTEM SET {name} = off" for name in (*in_a_hurry, "autovacuum")]
     try:
-        execute_alone(
-            server.get_uri(), *(f"ALTER SYSTEM SET {name} = off" for name in in_a_hurry), "SELECT pg_reload_conf()"
-        )
+        execute_alone(server.get_uri(), *settings, "SELECT pg_reload_conf()")
         yield server.get_uri()
     finally:
         server.cleanup()
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def execute_alone(server: str, *statements: str) -> None:
-    """Execute statements that PostgreSQL allows in no transaction."""
-    engine = create_engine(make_url(server).set(drivername="postgresql+psycopg"), isolation_level="AUTOCOMMIT")
-    with engine.connect() as connection:
+def execute_alone(address: str, *statements: str) -> None:
+    """Execute statements each in a transaction of its own, or in none."""
+    with psycopg.connect(address, autocommit=True) as connection:
         for statement in statements:
-            connection.execute(text(statement))
-    engine.dispose()
-
-
-def address_on(server: str, name: str) -> str:
-    return make_url(server).set(database=name).render_as_string(hide_password=False)
+            connection.execute(statement.encode())
 
 
 @pytest.fixture(scope="session")
-def postgres_template(postgres_server: str) -> Iterator[str]:
-    """The server's address once it has a migrated database named TEMPLATE."""
-    execute_alone(postgres_server, f"DROP DATABASE IF EXISTS {TEMPLATE}", f"CREATE DATABASE {TEMPLATE}")
-    database = open_database(address_on(postgres_server, TEMPLATE))
-    upgrade(database)
-    database.close()
-    yield postgres_server
-    execute_alone(postgres_server, f"DROP DATABASE {TEMPLATE}")
+def empty_postgres(postgres_server: str) -> Iterator[Callable[[], str]]:
+    """Return what empties this process's database on the server and gives its address."""
+    name = f"clearlines_test_{os.getpid()}"
+    address = make_url(postgres_server).set(database=name).render_as_string(hide_password=False)
+
+    def make() -> None:
+        execute_alone(postgres_server, f"DROP DATABASE IF EXISTS {name} WITH (FORCE)", f"CREATE DATABASE {name}")
+        database = open_database(address)
+        upgrade(database)
+        database.close()
+
+    def empty() -> str:
+        with psycopg.connect(address, autocommit=True) as connection:
+            tables = connection.execute("SELECT tablename FROM pg_tables WHERE schemaname = 'public'").fetchall()
+            whole = {table for (table,) in tables} == {*Base.metadata.tables, "alembic_version"}
+            if whole:
+                connection.execute(EMPTY)
+        if not whole:  # a test of the migrations left it so
+            make()
+        return address
+
+    make()
+    yield empty
+    execute_alone(postgres_server, f"DROP DATABASE {name} WITH (FORCE)")
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
-def database_url(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+def database_url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     """The address of a migrated, empty database of this test's own, which other processes can open too."""
-    if request.param == "sqlite":
-        path = tmp_path / "clearlines.sqlite3"
-        shutil.copy(request.getfixturevalue("sqlite_template"), path)
-        yield f"sqlite:///{path}"
-        return
-    server = request.getfixturevalue("postgres_template")
-    name = f"clearlines_test_{os.getpid()}"
-    execute_alone(server, f"DROP DATABASE IF EXISTS {name} WITH (FORCE)", f"CREATE DATABASE {name} TEMPLATE {TEMPLATE}")
-    yield address_on(server, name)
-    execute_alone(server, f"DROP DATABASE {name} WITH (FORCE)")
+    if request.param == "postgresql":
+        return request.getfixturevalue("empty_postgres")()
+    path = tmp_path / "clearlines.sqlite3"
+    shutil.copy(request.getfixturevalue("sqlite_template"), path)
+    return f"sqlite:///{path}"
 
 
 @pytest.fixture

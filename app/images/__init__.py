@@ -4,7 +4,16 @@ Pixels count as stored: an orientation in the file's EXIF or TIFF tags is applie
 """
 
 from app.images.browser import for_browser, thumbnail
-from app.images.decode import decode_display, decode_gray
+from app.images.decode import decode_display, decode_eight_bit, decode_gray
 from app.images.header import MAX_PIXELS, ImageHeader, describe
 
-__all__ = ["MAX_PIXELS", "ImageHeader", "decode_display", "decode_gray", "describe", "for_browser", "thumbnail"]
+__all__ = [
+    "MAX_PIXELS",
+    "ImageHeader",
+    "decode_display",
+    "decode_eight_bit",
+    "decode_gray",
+    "describe",
+    "for_browser",
+    "thumbnail",
+]

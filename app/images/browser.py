@@ -31,7 +31,7 @@ def for_browser(data: bytes, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, st
         return data, header.media_type
     # filtering and a quick deflate: a page waits for this
     fast = [cv2.IMWRITE_PNG_COMPRESSION, 2]
-    return _encode(".png", decode_eight_bit(data, max_pixels=max_pixels), fast), "image/png"
+    return encode(".png", decode_eight_bit(data, max_pixels=max_pixels), fast), "image/png"
 
 
 def thumbnail(data: bytes, size: int = 320, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, str]:
@@ -50,10 +50,20 @@ def thumbnail(data: bytes, size: int = 320, *, max_pixels: int = MAX_PIXELS) -> 
     if scale < 1:
         target = (max(1, round(width * scale)), max(1, round(height * scale)))
         pixels = cv2.resize(pixels, target, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
-    return _encode(".webp", pixels, [cv2.IMWRITE_WEBP_QUALITY, THUMBNAIL_QUALITY]), THUMBNAIL_TYPE
+    return encode(".webp", pixels, [cv2.IMWRITE_WEBP_QUALITY, THUMBNAIL_QUALITY]), THUMBNAIL_TYPE
 
 
-def _encode(extension: str, pixels: NDArray[np.uint8], options: list[int]) -> bytes:
+def encode(extension: str, pixels: NDArray[np.uint8], options: list[int]) -> bytes:
+    """Return pixels as the bytes of a file.
+
+    Args:
+        extension: Says the format, ".png".
+        pixels: uint8 ``(H, W)``, or ``(H, W, 3)`` in the order blue, green, red.
+        options: OpenCV's, in pairs.
+
+    Raises:
+        InvalidImage: If the format doesn't take them.
+    """
     done, encoded = cv2.imencode(extension, pixels, options)
     if not done:
         raise InvalidImage("the image can't be encoded for the browser")

@@ -26,6 +26,9 @@ ORIENTATION = 0x0112
 BITS_PER_SAMPLE = 258
 SAMPLE_FORMAT = 339
 UNSIGNED = 1
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+PNG_METADATA = frozenset({b"eXIf", b"tEXt", b"zTXt", b"iTXt"})
+"""Chunks that an orientation can stand in."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ def _header(image: Image.Image, data: bytes, max_pixels: int) -> ImageHeader:
         raise InvalidImage(
             "the file holds several pictures", expected="one", hint="save the one you mean as a file of its own"
         )
-    orientation = _orientation(image)
+    orientation = _orientation(image, data)
     return ImageHeader(kind, width, height, _bits(image, data), _channels(image), MEDIA_TYPES[kind], orientation)
 
 
@@ -126,13 +129,32 @@ def _webp_size(data: bytes) -> tuple[int, int] | None:
     return None
 
 
-def _orientation(image: Image.Image) -> int:
+def _orientation(image: Image.Image, data: bytes) -> int:
     try:
-        value = image.getexif().get(ORIENTATION, 1)
+        value = _exif(image, data).get(ORIENTATION, 1)
     # a broken EXIF block is no reason to refuse the pixels
     except Exception:
         return 1
     return value if isinstance(value, int) and 1 <= value <= 8 else 1
+
+
+def _exif(image: Image.Image, data: bytes) -> Image.Exif:
+    """Return the EXIF block; of a PNG without decoding its pixels, which Pillow does in search of a late one."""
+    if image.format == "PNG" and not _tells_late(data):
+        return Image.Image.getexif(image)
+    return image.getexif()
+
+
+def _tells_late(data: bytes) -> bool:
+    """Whether a PNG has metadata behind its pixels (ISO/IEC 15948, 5.3: length, type, content, CRC of each chunk)."""
+    at, pixels_seen = len(PNG_SIGNATURE), False
+    while at + 8 <= len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        if pixels_seen and kind in PNG_METADATA:
+            return True
+        pixels_seen |= kind == b"IDAT"
+        at += length + 12
+    return False
 
 
 def _stored_size(image: Image.Image) -> tuple[int, int]:

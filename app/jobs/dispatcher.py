@@ -15,12 +15,13 @@ from datetime import datetime, timedelta
 
 from app.db.session import Database
 from app.jobs.arrivals import store_arrived
-from app.jobs.executor import make_executor
+from app.jobs.executor import make_background_executor
 from app.jobs.flight import Flight
 from app.jobs.intake import take_work, work_is_left
 from app.jobs.limits import TaskLimits
 from app.jobs.lock import lock_for
 from app.jobs.stores import Stores
+from app.jobs.suggestion_intake import SuggestionIntake
 from app.jobs.trouble import DATABASE_TROUBLE, reason_of
 from app.jobs.upkeep import finish_runs, keep_alive, take_up_lost
 from app.jobs.webhooks import Webhooks
@@ -53,7 +54,7 @@ class Dispatcher:
         settings: Settings,
         clock: Callable[[], datetime],
         *,
-        executors: Callable[[int], Executor] = make_executor,
+        executors: Callable[[int], Executor] = make_background_executor,
         tasks: Tasks | None = None,
     ) -> None:
         self._database = database
@@ -72,6 +73,7 @@ class Dispatcher:
         self._signal = threading.Event()
         self._stopping = threading.Event()
         self._flight = Flight(workers, executors, self._signal.set)
+        self._suggestions = SuggestionIntake()
         self._lock = lock_for(database)
         self._holds_lock = False
         self._last_beat: datetime | None = None
@@ -116,7 +118,7 @@ class Dispatcher:
                 self._signal.clear()
                 pause = self._settings.heartbeat_seconds
                 try:
-                    self._turn(self._clock())
+                    self._turn(self._clock(), None if until_idle else self._suggestions)
                     if progress is not None:
                         progress()
                     if until_idle and not self._flight.work and not work_is_left(self._database):
@@ -132,12 +134,12 @@ class Dispatcher:
         finally:
             self._leave()
 
-    def _turn(self, now: datetime) -> None:
+    def _turn(self, now: datetime, suggestions: SuggestionIntake | None) -> None:
         if self._acquire_lock():
             store_arrived(self._flight, self._stores, now, on_total=self._webhooks.wake)
             self._beat(now)
             finish_runs(self._database, now)
-            take_work(self._flight, self._database, now)
+            take_work(self._flight, self._database, now, suggestions)
             self._send(now)
 
     def _acquire_lock(self) -> bool:

@@ -14,19 +14,24 @@ import threading
 from concurrent.futures import Executor, ProcessPoolExecutor
 from multiprocessing.connection import Connection
 
+BACKGROUND = 10
+"""Niceness of work in the background: on a busy machine it gets about a tenth of a processor, else all of it."""
+
 
 class WorkerPool(ProcessPoolExecutor):
     """A process pool whose workers can be ended at once and end with their maker.
 
     Args:
         workers: Number of processes; started when there is work for them.
+        niceness: By how much they step back behind whatever else wants the processor; 0 to 19.
     """
 
-    def __init__(self, workers: int) -> None:
+    def __init__(self, workers: int, *, niceness: int = 0) -> None:
         # spawned, not forked: the server has threads, and a fork copies their locks in whatever state they are
         context = multiprocessing.get_context("spawn")
         self._workers_end, self._lifeline = context.Pipe(duplex=False)
-        super().__init__(workers, mp_context=context, initializer=_prepare_worker, initargs=(self._workers_end,))
+        arguments = (self._workers_end, niceness)
+        super().__init__(workers, mp_context=context, initializer=_prepare_worker, initargs=arguments)
 
     def end_workers(self) -> None:
         """End the workers at once, in the middle of their work; what they worked on is lost."""
@@ -44,6 +49,15 @@ def make_executor(workers: int) -> Executor:
     return WorkerPool(workers)
 
 
+def make_background_executor(workers: int) -> Executor:
+    """Return an executor for work that nobody waits for: a page that is being looked at comes first.
+
+    Args:
+        workers: Number of processes.
+    """
+    return WorkerPool(workers, niceness=BACKGROUND)
+
+
 def end_executor(executor: Executor) -> None:
     """Take an executor down without waiting for the work in it."""
     if isinstance(executor, WorkerPool):
@@ -52,7 +66,9 @@ def end_executor(executor: Executor) -> None:
         executor.shutdown(wait=False, cancel_futures=True)
 
 
-def _prepare_worker(lifeline: Connection) -> None:
+def _prepare_worker(lifeline: Connection, niceness: int) -> None:
+    if niceness and hasattr(os, "nice"):
+        os.nice(niceness)
     # Ctrl-C reaches the whole process group; only the maker answers it
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(lifeline,), name="lifeline", daemon=True).start()

@@ -13,7 +13,8 @@ from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from threading import Lock
 
 from app.errors import Unavailable
-from app.jobs.executor import end_executor, make_executor
+from app.jobs.executor import make_executor
+from app.jobs.on_demand import OnDemandWorker
 from app.jobs.tasks import ImageHistory, fingerprint, history_task
 from app.services.segment_history import Found, StageHistory, tell
 from app.storage import BlobStore
@@ -44,9 +45,8 @@ class Histories:
     ) -> None:
         self._blobs = blobs
         self._max_pixels = max_pixels
-        self._executors = executors
+        self._worker = OnDemandWorker(executors)
         self._task = task
-        self._executor: Executor | None = None
         self._latest: OrderedDict[tuple[str, str], Future[ImageHistory]] = OrderedDict()
         self._lock = Lock()
 
@@ -80,7 +80,7 @@ class Histories:
     def stop(self) -> None:
         """End the worker at once; whoever waits is told that it was killed."""
         with self._lock:
-            self._end_worker()
+            self._worker.stop()
             self._latest.clear()
 
     def _begin(self, found: Found) -> Future[ImageHistory]:
@@ -96,12 +96,8 @@ class Histories:
             if known is not None:
                 return known
             self._make_room()
-            arguments = (self._task, content, found.image_name, found.parameters)
-            try:
-                future = self._worker().submit(*arguments, max_pixels=self._max_pixels)
-            except BrokenExecutor:  # it died while it had nothing to do
-                self._end_worker()
-                future = self._worker().submit(*arguments, max_pixels=self._max_pixels)
+            arguments = (content, found.image_name, found.parameters)
+            future = self._worker.submit(self._task, *arguments, max_pixels=self._max_pixels)
             self._latest[key] = future
             return future
 
@@ -121,15 +117,6 @@ class Histories:
             if oldest is None:
                 raise Unavailable("other images are being looked into", hint="try again in a moment")
             del self._latest[oldest]
-
-    def _worker(self) -> Executor:
-        self._executor = self._executor or self._executors(1)
-        return self._executor
-
-    def _end_worker(self) -> None:
-        if self._executor is not None:
-            end_executor(self._executor)
-            self._executor = None
 
 
 def _failed(future: Future[ImageHistory]) -> bool:

@@ -7,23 +7,27 @@ from datetime import datetime
 from app.db.session import Database
 from app.jobs.flight import Flight
 from app.jobs.scoring_steps import scoring_in_hand, scoring_share, scoring_work
+from app.jobs.suggestion_intake import SuggestionIntake
 from app.jobs.work import DetectWork, EstimateWork, JudgeWork, Work
 from app.services.lens_estimates import pending_estimates, pending_judgements
 from app.services.run_queue import claim_images, has_queued_images, unsettled_runs
 from app.services.scoring_queue import claim_scoring, has_scoring_work
 
 
-def take_work(flight: Flight, database: Database, now: datetime) -> None:
+def take_work(flight: Flight, database: Database, now: datetime, suggestions: SuggestionIntake | None = None) -> None:
     """Take work in hand: of submissions first, as somebody waits for it and it is short; then of runs.
 
     Args:
         flight: Work in hand; it tells how much room there is.
         database: Where the rows are.
         now: When.
+        suggestions: Takes what suggestions need when nothing else is left; nobody does if left out.
     """
     if flight.room:
         _take_scoring(flight, database, now)
         _take_of_runs(flight, database, now)
+        if suggestions is not None:
+            suggestions.take(flight, database)
 
 
 def work_is_left(database: Database) -> bool:

@@ -15,6 +15,8 @@ from app.db.models import Image
 from app.evaluation.submission_scoring import ImageRecord
 from app.jobs.scoring_tasks import Validated, score_task, total_task, validate_task
 from app.jobs.stores import Stores
+from app.jobs.suggestion_learning import Trained, train_task
+from app.jobs.suggestion_tasks import CandidateFacts, features_task
 from app.jobs.tasks import DetectionResult, Judgement, detect_task, estimate_task, judge_task
 from app.services.carrying import match_to_current
 from app.services.detections import FoundCandidates, store_detection
@@ -42,6 +44,8 @@ class Tasks:
     validate: Callable[..., Validated] = validate_task
     score: Callable[..., list[ImageRecord]] = score_task
     total: Callable[..., dict[str, Any]] = total_task
+    features: Callable[..., CandidateFacts] = features_task
+    train: Callable[..., Trained] = train_task
 
 
 class Work(Protocol):

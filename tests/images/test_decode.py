@@ -105,6 +105,19 @@ def test_orientation_is_applied_nowhere(kind, orientation):
     assert np.array_equal(decode_gray(shown), decode_gray(plain))
 
 
+@pytest.mark.parametrize("place", ["before", "behind"])
+def test_orientation_of_a_png_is_found_on_either_side_of_its_pixels(place):
+    data = turned(GREY, "PNG", 6)
+    start = data.index(b"eXIf") - 4
+    end = start + 12 + int.from_bytes(data[start : start + 4])
+    chunk, rest = data[start:end], data[:start] + data[end:]
+    at = rest.index(b"IDAT" if place == "before" else b"IEND") - 4
+    moved = rest[:at] + chunk + rest[at:]
+    assert describe(moved).orientation == 6
+    assert describe(rest).orientation == 1
+    assert np.array_equal(open_png(for_browser(moved)[0]), GREY)
+
+
 @pytest.mark.parametrize("orientation", range(1, 9))
 def test_orientation_of_a_16_bit_tiff(orientation):
     exif = Image.Exif()

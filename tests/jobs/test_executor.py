@@ -9,7 +9,7 @@ from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 import psutil
 import pytest
 
-from app.jobs.executor import WorkerPool, end_executor, make_executor
+from app.jobs.executor import BACKGROUND, WorkerPool, end_executor, make_background_executor, make_executor
 
 
 def test_workers_ignore_ctrl_c_and_end_when_told(eventually) -> None:
@@ -36,6 +36,15 @@ def test_ending_breaks_work_off(eventually) -> None:
     end_executor(executor)
     assert isinstance(endless.exception(60), BrokenExecutor)
     eventually(lambda: not psutil.pid_exists(worker), "the worker has ended")
+
+
+@pytest.mark.skipif(not hasattr(os, "nice"), reason="the system knows no niceness")
+def test_work_in_the_background_steps_back() -> None:
+    executor = make_background_executor(1)
+    try:
+        assert executor.submit(os.nice, 0).result(60) == min(19, os.nice(0) + BACKGROUND)
+    finally:
+        end_executor(executor)
 
 
 def test_other_executors_are_shut_down() -> None:

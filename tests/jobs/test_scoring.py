@@ -232,7 +232,7 @@ def test_an_upload_that_a_dead_server_left_is_refused_and_stays_visible(small_ya
     small_yard.dispatcher(Tasks()).run_until_idle()
     row = board.state(submission)
     assert row.status == "invalid"
-    assert (row.error or {})["details"]["errors"][0]["message"] == "the split has no image of this name"
+    assert (row.error or {})["details"]["errors"][0]["message"] == "there is no image of this name"
 
 
 def test_a_submission_overtakes_a_run(small_yard, eventually, make_board) -> None:

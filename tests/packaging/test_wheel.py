@@ -21,8 +21,6 @@ SOURCES = (
     *("pyproject.toml", "build_hook.py", "build_frontend.py", "build_native.py"),
     *("README.md", "LICENSE", "CHANGELOG.md"),
 )
-# one process builds for all tests of this file
-pytestmark = pytest.mark.xdist_group("wheel")
 SERVE = """
 from fastapi.testclient import TestClient
 from app.api.application import create_application
