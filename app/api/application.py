@@ -13,35 +13,46 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from starlette.routing import BaseRoute, Match
 
 from app import __version__
+from app.api.built_files import BuiltFiles
 from app.api.deps import Server
 from app.api.gate import Gate
 from app.api.guard import Guard
 from app.api.head import HeadAsGet
+from app.api.opening import Opening
 from app.api.problems import answers, install_problem_handlers
 from app.api.routers import (
+    agreement,
     board,
     cameras,
+    candidates,
     cards,
     datasets,
+    edits,
     exports,
     images,
     labelling,
     methods,
+    people,
     runs,
+    second_reviews,
     segments,
     session,
     splits,
     submissions,
+    suggestions,
     system,
     uploads,
 )
 from app.clock import utc_now
 from app.db.session import open_database, upgrade
 from app.jobs.dispatcher import Dispatcher
+from app.jobs.feature_desk import FeatureDesk
 from app.jobs.histories import Histories
 from app.jobs.housekeeping import Housekeeper
 from app.jobs.scoring_desk import scoring_desk
+from app.jobs.tracing import Tracer
 from app.services.card_tables import CardTables
+from app.services.work_logs import WorkLogs
 from app.settings import Settings
 from app.storage import BlobStore
 
@@ -54,7 +65,13 @@ ROUTERS = (
     uploads,
     images,
     labelling,
+    people,
+    second_reviews,
+    agreement,
+    candidates,
+    edits,
     segments,
+    suggestions,
     runs,
     cameras,
     exports,
@@ -81,9 +98,23 @@ def create_application(settings: Settings) -> FastAPI:
         blobs = BlobStore(settings.blob_dir)
         dispatcher = Dispatcher(database, blobs, settings, utc_now)
         histories = Histories(blobs, settings.max_image_pixels)
+        features = FeatureDesk(database, blobs, settings.max_image_pixels, utc_now)
         tables = CardTables(database)
         desk = scoring_desk(settings, blobs)
-        application.state.server = Server(settings, database, blobs, dispatcher, histories, tables, utc_now, desk)
+        tracer = Tracer(blobs, settings.max_image_pixels)
+        application.state.server = Server(
+            settings,
+            database,
+            blobs,
+            dispatcher,
+            histories,
+            features,
+            tables,
+            WorkLogs(database),
+            utc_now,
+            desk,
+            tracer,
+        )
         housekeeper = Housekeeper(database, blobs, grace=settings.grace, clock=utc_now)
         dispatcher.start()
         housekeeper.start()
@@ -93,7 +124,9 @@ def create_application(settings: Settings) -> FastAPI:
             housekeeper.stop()
             dispatcher.stop()
             histories.stop()
+            features.stop()
             desk.stop()
+            tracer.stop()
             database.close()
 
     application = FastAPI(
@@ -112,6 +145,8 @@ def create_application(settings: Settings) -> FastAPI:
     application.include_router(_unknown_addresses(list(application.routes)))
     if (STATIC / "index.html").is_file():
         application.frontend("/", directory=str(STATIC))
+        application.add_middleware(Opening, static=STATIC)
+        application.add_middleware(BuiltFiles, static=STATIC)
     application.add_middleware(Gate)
     application.add_middleware(
         GZipMiddleware,

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Annotated
 
 from fastapi import Depends, Query, Request
 from sqlalchemy.orm import Session
 
+from app.api.decoding import Decoding
 from app.db.session import Database
 from app.jobs.dispatcher import Dispatcher
+from app.jobs.feature_desk import FeatureDesk
 from app.jobs.histories import Histories
 from app.jobs.scoring_desk import ScoringDesk
+from app.jobs.tracing import Tracer
 from app.services.access import Viewer
 from app.services.card_tables import CardTables
+from app.services.work_logs import WorkLogs
 from app.settings import Settings
 from app.storage import BlobStore
 
@@ -29,9 +33,13 @@ class Server:
     blobs: BlobStore
     dispatcher: Dispatcher
     histories: Histories
+    features: FeatureDesk
     card_tables: CardTables
+    work_logs: WorkLogs
     clock: Callable[[], datetime]
     desk: ScoringDesk
+    tracer: Tracer
+    decoding: Decoding = field(default_factory=Decoding)
 
 
 def get_server(request: Request) -> Server:

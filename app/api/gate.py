@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import datetime
 from http.cookies import CookieError, SimpleCookie
+from urllib.parse import unquote_to_bytes
 
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
@@ -13,14 +15,16 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.api.deps import Server
 from app.api.policy import PREFIX, Request, rule_of
 from app.api.problems import problem_of
-from app.errors import ClearLinesError, Forbidden, NotFound, Unauthenticated
+from app.errors import ClearLinesError, Forbidden, InvalidInput, NotFound, Unauthenticated
 from app.services.access import Viewer, can_see_hidden, is_at_least
 from app.services.concealing import require_details, require_visible
+from app.services.people import checked_person
 from app.services.tokens import is_use_due, record_use, token_of, viewer_of
 from app.settings import Settings
 
 COOKIE = "clearlines_token"
 COOKIE_PATH = PREFIX
+PERSON = "X-ClearLines-Person"
 SIGNING_IN = "/session"
 
 
@@ -45,7 +49,7 @@ class Gate:
         headers = Headers(scope=scope)
         given = _bearer(headers) or ("" if _is_signing(request) else _cookie(headers))
         try:
-            viewer = await self._admit(server, request, given)
+            viewer = _named(await self._admit(server, request, given), headers)
         except ClearLinesError as error:
             response = problem_of(error)
             if isinstance(error, Unauthenticated):
@@ -120,6 +124,18 @@ def _require_role(viewer: Viewer, request: Request | None) -> None:
             where=f"{request.rule.method} {PREFIX}{request.rule.template}",
             expected=f"the role {request.rule.role}",
         )
+
+
+def _named(viewer: Viewer, headers: Headers) -> Viewer:
+    """Return the viewer under the name that the page sends: only the owner without a token chooses one."""
+    given = headers.get(PERSON)
+    if given is None or not viewer.anonymous or viewer.role != "owner":
+        return viewer
+    try:
+        name = unquote_to_bytes(given.encode("ascii")).decode()
+    except UnicodeError as error:
+        raise InvalidInput("the name can't be read", where=PERSON, expected="UTF-8, percent-encoded") from error
+    return replace(viewer, name=checked_person(name, PERSON))
 
 
 def _is_signing(request: Request | None) -> bool:

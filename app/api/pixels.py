@@ -11,6 +11,7 @@ from app.api.deps import Server
 from app.api.freshness import fresh_headers, is_held, not_modified
 from app.errors import NotFound
 from app.images import for_browser, thumbnail
+from app.services.image_views import ViewedImage, render_view
 
 PIXELS = {200: {"content": {"image/*": {"schema": {"type": "string", "format": "binary"}}}}}
 
@@ -50,11 +51,22 @@ def display_answer(server: Server, sha256: str, if_none_match: str | None) -> Re
     return Response(content, media_type=media_type, headers=fresh_headers(tag))
 
 
+def view_answer(server: Server, viewed: ViewedImage, if_none_match: str | None) -> Response:
+    """Return another view of an image than its pixels as stored."""
+    if is_held(if_none_match, viewed.tag):
+        return not_modified(viewed.tag)
+    with server.decoding.place():
+        content = server.blobs.read(viewed.sha256)
+        seen, media_type = render_view(viewed, content, max_pixels=server.settings.max_image_pixels)
+    return Response(seen, media_type=media_type, headers=fresh_headers(viewed.tag))
+
+
 def thumbnail_answer(server: Server, sha256: str, size: ThumbnailSize, if_none_match: str | None) -> Response:
     """Return a small picture whose longer side is ``size`` px."""
     tag = f"{sha256}-{size.value}"
     if is_held(if_none_match, tag):
         return not_modified(tag)
-    data = server.blobs.read(sha256)
-    content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
+    with server.decoding.place():
+        data = server.blobs.read(sha256)
+        content, media_type = thumbnail(data, size.value, max_pixels=server.settings.max_image_pixels)
     return Response(content, media_type=media_type, headers=fresh_headers(tag))

@@ -31,6 +31,8 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /datasets/{slug}/export",
         "GET /datasets/{slug}/card",
         "GET /datasets/{slug}/card.png",
+        "GET /datasets/{slug}/guidelines",
+        "GET /datasets/{slug}/suggestions",
         "GET /images/{image_id}",
         "GET /images/{image_id}/original",
         "GET /images/{image_id}/display",
@@ -38,6 +40,8 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /images/{image_id}/segments",
         "GET /images/{image_id}/points",
         "GET /images/{image_id}/decisions",
+        "GET /images/{image_id}/edits",
+        "GET /segments/{segment_id}/evidence",
         "GET /runs/{run_id}",
         "GET /runs/{run_id}/images",
         "GET /splits",
@@ -71,8 +75,27 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
     ),
     "annotator": (
         "GET /segments/{segment_id}/history",  # runs the detector
+        "GET /images/{image_id}/neighbour_verdicts",  # matches whole frames
+        "GET /images/{image_id}/suggestions",  # may look at all candidates
+        "POST /datasets/{slug}/suggestions/train",
         "POST /images/{image_id}/decisions",
+        "POST /images/{image_id}/edits",
+        "POST /images/{image_id}/trace",  # reads the image's pixels
         "PUT /images/{image_id}/review",
+        "PUT /images/{image_id}/lease",
+        "DELETE /images/{image_id}/lease",
+        "POST /images/{image_id}/second-review",
+        "GET /second-reviews/{second_review_id}/segments",
+        "GET /second-reviews/{second_review_id}/decisions",
+        "POST /second-reviews/{second_review_id}/decisions",
+        "PUT /second-reviews/{second_review_id}/review",
+        "POST /second-reviews/{second_review_id}/adjudications",
+        "DELETE /second-reviews/{second_review_id}/adjudications/{segment_id}",
+        "GET /datasets/{slug}/people",
+        "GET /datasets/{slug}/second-reviews",
+        "GET /datasets/{slug}/agreement",
+        "GET /datasets/{slug}/differences",
+        "GET /datasets/{slug}/statistics",
         "POST /submissions/{submission_id}/images/{split_image_id}/review",
     ),
     "maintainer": (
@@ -84,6 +107,8 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "PATCH /datasets/{slug}/images",
         "POST /datasets/{slug}/images/delete",
         "POST /datasets/{slug}/images/restore",
+        "POST /datasets/{slug}/assign",
+        "POST /datasets/{slug}/candidates",
         "POST /datasets/{slug}/runs",
         "POST /datasets/{slug}/splits",
         "PATCH /images/{image_id}",
@@ -97,6 +122,7 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "DELETE /splits/{split}",
         "POST /splits/{split}/restore",
         "POST /splits/{split}/versions",
+        "POST /splits/{split}/ceiling",
         "POST /splits/{split}/rescore",
         "POST /submissions/{submission_id}/rescore",
     ),
@@ -133,7 +159,8 @@ class Request:
     """A request that a rule is there for.
 
     Attributes:
-        named: What the address names: ``dataset`` (its slug), ``image_id``, ``segment_id``, ``run_id``, ``camera_id``.
+        named: What the address names: ``dataset`` (its slug), ``image_id``, ``segment_id``, ``run_id``, ``camera_id``,
+            ``second_review_id``.
         submissions: Ids of submissions whose details it tells.
     """
 

@@ -13,10 +13,10 @@ from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
 from numpy.typing import NDArray
-from sqlalchemy import select, update
+from sqlalchemy import or_, select, update
 from sqlalchemy.orm import Session
 
-from app.db.models import Decision, Image, Segment, SegmentState
+from app.db.models import Decision, Edit, Image, Segment, SegmentState
 from app.evaluation.matching import match_segments
 from app.services.candidates import is_current, verdict_of_segment
 from app.vision.segments import Segments
@@ -31,7 +31,7 @@ class Matching:
 
     Attributes:
         revision: The image's revision that the segments were read at.
-        already_there: int64 ``(A,)``, candidates that an imported or hand-drawn segment covers.
+        already_there: int64 ``(A,)``, candidates that an imported or hand-drawn segment covers, or that a hand edited.
         successors: For ids of current pipeline segments, the candidate that each goes over to.
     """
 
@@ -64,11 +64,16 @@ def match_to_current(session: Session, image: Image, candidates: Segments) -> Ma
         image: The image as this session sees it.
         candidates: S new candidates, px.
     """
+    # what a hand has shaped isn't proposed anew as it was; should the edit be undone, it is back by itself
+    edits = session.scalars(select(Edit.replaced).where(Edit.image_id == image.id, Edit.undone_at.is_(None)))
+    edited = {key for replaced in edits for key in replaced}
     rows = session.execute(
-        select(Segment.id, Segment.origin, Segment.points).where(Segment.image_id == image.id, is_current())
+        select(Segment.id, Segment.origin, Segment.points)
+        .where(Segment.image_id == image.id, or_(is_current(), Segment.id.in_(edited)))
+        .order_by(Segment.id)
     ).all()
-    older = [row for row in rows if row.origin == "pipeline"]
-    fixed = [row for row in rows if row.origin != "pipeline"]
+    older = [row for row in rows if row.origin == "pipeline" and row.id not in edited]
+    fixed = [row for row in rows if row.origin != "pipeline" or row.id in edited]
     already_there = match_segments(_polylines([row.points for row in fixed]), candidates).column
     left = np.setdiff1d(np.arange(len(candidates), dtype=np.int64), already_there)
     matches = match_segments(_polylines([row.points for row in older]), candidates.select(left))
@@ -90,7 +95,7 @@ def carry_verdicts(
         now: Time of the change.
     """
     rows = session.execute(
-        select(Segment.id, verdict_of_segment(), Decision.person, is_current())
+        select(Segment.id, verdict_of_segment(), SegmentState.reason, Decision.person, is_current())
         .outerjoin(SegmentState, SegmentState.segment_id == Segment.id)
         .outerjoin(Decision, Decision.id == SegmentState.decision_id)
         .where(
@@ -104,7 +109,7 @@ def carry_verdicts(
     carried: list[Decision] = []
     retired: list[dict[str, object]] = []
     kept_unmatched = replaced = 0
-    for segment_id, verdict, person, current in rows:
+    for segment_id, verdict, reason, person, current in rows:
         successor = new.get(matching.successors.get(segment_id, -1))
         if successor is None and verdict in STAYING_VERDICTS:
             kept_unmatched += 1
@@ -119,6 +124,7 @@ def carry_verdicts(
                     old_id=segment_id,
                     new_id=successor.id,
                     verdict=verdict,
+                    reason=reason,
                     previous="undecided",
                     person=person,
                     cause=f"run-image/{run_image_id}",
@@ -130,7 +136,12 @@ def carry_verdicts(
     session.add_all(carried)
     session.flush()
     session.add_all(
-        SegmentState(segment_id=decision.segment_id, verdict=decision.verdict, decision_id=decision.id)
+        SegmentState(
+            segment_id=decision.segment_id,
+            verdict=decision.verdict,
+            reason=decision.reason,
+            decision_id=decision.id,
+        )
         for decision in carried
     )
     return Carried(len(carried), kept_unmatched, replaced)
@@ -142,6 +153,7 @@ def carry_decision(
     old_id: int,
     new_id: int,
     verdict: str,
+    reason: str | None,
     previous: str,
     person: str | None,
     cause: str,
@@ -156,6 +168,7 @@ def carry_decision(
         segment_id=new_id,
         person=person,
         verdict=verdict,
+        reason=reason,
         previous=previous,
         kind="carry",
         client_id=str(uuid5(NAMESPACE_URL, f"carry/{cause}/{old_id}/{new_id}")),

@@ -19,6 +19,7 @@ from app.db.models import (
     Dataset,
     Image,
     Run,
+    SecondReview,
     Segment,
     Split,
     SplitImage,
@@ -72,7 +73,7 @@ def require_visible(session: Session, viewer: Viewer, named: Mapping[str, str]) 
         session: Any session.
         viewer: Who asks.
         named: What the address names: ``dataset`` (its slug), ``image_id``, ``segment_id``, ``run_id``, ``camera_id``,
-            as text.
+            ``second_review_id``, as text.
 
     Raises:
         NotFound: When one of them lies in a concealed dataset; also on an id that isn't written in plain digits,
@@ -143,12 +144,18 @@ def _of_camera(value: str) -> Select[int]:
     return select(Camera.dataset_id).where(Camera.id == int(value))
 
 
+def _of_second_review(value: str) -> Select[int]:
+    second = select(SecondReview.image_id).where(SecondReview.id == int(value))
+    return select(Image.dataset_id).where(Image.id.in_(second))
+
+
 _DATASET_OF: Mapping[str, Callable[[str], Select[int]]] = {
     "dataset": _of_slug,
     "image_id": _of_image,
     "segment_id": _of_segment,
     "run_id": _of_run,
     "camera_id": _of_camera,
+    "second_review_id": _of_second_review,
 }
 
 

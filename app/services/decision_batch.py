@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Protocol
 from uuid import UUID
 
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import VERDICTS, Decision, Segment
+from app.db.models import REASONS, VERDICTS, Decision, SecondDecision, Segment
 from app.errors import Conflict, InvalidInput, TooLarge
 from app.services.batches import in_batches
 
 MOST_DECISIONS = 5_000
-KINDS = ("judge", "undo", "redo")
+KINDS = ("judge", "accept", "take_over", "undo", "redo")
+REPLAYS = ("undo", "redo")
 
 
 class DecisionGiven(Protocol):
@@ -43,7 +44,7 @@ class DecisionGiven(Protocol):
 
     @property
     def kind(self) -> str:
-        """``judge``, ``undo`` or ``redo``."""
+        """``judge``; ``accept`` of a suggestion; ``take_over`` from a neighbouring frame; ``undo`` or ``redo``."""
         ...
 
     @property
@@ -54,6 +55,16 @@ class DecisionGiven(Protocol):
     @property
     def elapsed_ms(self) -> int | None:
         """How long the person took."""
+        ...
+
+    @property
+    def reason(self) -> str | None:
+        """Why it is rejected; for no other verdict."""
+        ...
+
+    @property
+    def suggestion(self) -> float | None:
+        """The probability of being kept that the person saw."""
         ...
 
 
@@ -68,14 +79,49 @@ class Wish:
     kind: str = "judge"
     target_group_id: str | None = None
     elapsed_ms: int | None = None
+    reason: str | None = None
+    suggestion: float | None = None
 
-    def same_as(self, other: Wish | Decision) -> bool:
-        """Whether the other one, of the same client id, says the same."""
-        names = ("group_id", "segment_id", "verdict", "kind", "target_group_id", "elapsed_ms")
-        return all(getattr(self, name) == getattr(other, name) for name in names)
+    def same_as(self, other: Wish | Decision | SecondDecision) -> bool:
+        """Whether the other one, of the same client id, says the same; a second review's have no reason."""
+        return all(getattr(self, name) == getattr(other, name, None) for name in SAID)
 
 
-def new_wishes(session: Session, image_id: int, given: Sequence[DecisionGiven]) -> list[Wish]:
+SAID = tuple(field.name for field in fields(Wish) if field.name != "client_id")
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """The append-only rows that decisions become: those of an image, or those of its second review.
+
+    Attributes:
+        rows: Their table.
+        owner: Its column that says which image or second review a row is of.
+        owner_id: Which one.
+        kinds: Kinds of decisions that a client may send.
+    """
+
+    rows: type[Decision] | type[SecondDecision]
+    owner: str
+    owner_id: int
+    kinds: tuple[str, ...]
+
+    def owns(self, row: Decision | SecondDecision) -> bool:
+        """Whether a row is of this image or second review."""
+        return getattr(row, self.owner) == self.owner_id
+
+
+def image_ledger(image_id: int) -> Ledger:
+    """Return where decisions on an image are written."""
+    return Ledger(Decision, "image_id", image_id, KINDS)
+
+
+def second_ledger(second_review_id: int) -> Ledger:
+    """Return where decisions of a second review are written."""
+    return Ledger(SecondDecision, "second_review_id", second_review_id, ("judge", *REPLAYS))
+
+
+def new_wishes(session: Session, ledger: Ledger, given: Sequence[DecisionGiven]) -> list[Wish]:
     """Return the decisions that aren't stored yet, in order, each once.
 
     Raises:
@@ -87,15 +133,16 @@ def new_wishes(session: Session, image_id: int, given: Sequence[DecisionGiven]) 
         raise InvalidInput("no decisions", where="decisions", expected=f"1 to {MOST_DECISIONS}")
     if len(given) > MOST_DECISIONS:
         raise TooLarge(f"{len(given)} decisions at once", where="decisions", expected=f"at most {MOST_DECISIONS}")
-    known: dict[str, Wish | Decision] = dict(_stored(session, [_uuid(entry.client_id, 0) for entry in given]))
+    ids = [_uuid(entry.client_id, 0) for entry in given]
+    known: dict[str, Wish | Decision | SecondDecision] = dict(_stored(session, ledger, ids))
     wishes: list[Wish] = []
     for number, entry in enumerate(given):
-        wish = _checked(entry, number)
+        wish = _checked(entry, number, ledger.kinds)
         other = known.get(wish.client_id)
         if other is None:
             known[wish.client_id] = wish
             wishes.append(wish)
-        elif not wish.same_as(other) or (isinstance(other, Decision) and other.image_id != image_id):
+        elif not wish.same_as(other) or not (isinstance(other, Wish) or ledger.owns(other)):
             raise Conflict(
                 "another decision has this client_id",
                 where=f"decisions[{number}].client_id",
@@ -126,15 +173,16 @@ def segments_named(session: Session, image_id: int, wishes: Sequence[Wish]) -> M
     return found
 
 
-def require_known_groups(session: Session, image_id: int, wishes: Sequence[Wish]) -> None:
-    """Check that what is undone or redone was done on this image.
+def require_known_groups(session: Session, ledger: Ledger, wishes: Sequence[Wish]) -> None:
+    """Check that what is undone or redone was done on this image, or in this second review of it.
 
     Raises:
         InvalidInput: Naming the group that doesn't exist.
     """
     targets = {wish.target_group_id for wish in wishes if wish.target_group_id} - {wish.group_id for wish in wishes}
     for batch in in_batches(sorted(targets)):
-        query = select(Decision.group_id).where(Decision.image_id == image_id, Decision.group_id.in_(batch)).distinct()
+        of_owner = getattr(ledger.rows, ledger.owner) == ledger.owner_id
+        query = select(ledger.rows.group_id).where(of_owner, ledger.rows.group_id.in_(batch)).distinct()
         targets = targets.difference(session.scalars(query))
     if targets:
         raise InvalidInput(
@@ -145,15 +193,21 @@ def require_known_groups(session: Session, image_id: int, wishes: Sequence[Wish]
         )
 
 
-def _checked(given: DecisionGiven, number: int) -> Wish:
+def _checked(given: DecisionGiven, number: int, kinds: Sequence[str]) -> Wish:
     where = f"decisions[{number}]"
     if given.verdict not in VERDICTS:
         raise InvalidInput(f"{given.verdict!r} is no verdict", where=f"{where}.verdict", expected=", ".join(VERDICTS))
-    if given.kind not in KINDS:
-        raise InvalidInput(f"{given.kind!r} can't be decided", where=f"{where}.kind", expected=", ".join(KINDS))
-    if (given.kind == "judge") != (given.target_group_id is None):
+    if given.kind not in kinds:
+        raise InvalidInput(f"{given.kind!r} can't be decided", where=f"{where}.kind", expected=", ".join(kinds))
+    if (given.kind in REPLAYS) != (given.target_group_id is not None):
         raise InvalidInput(
             "undo and redo name the group they are about, and nothing else does", where=f"{where}.target_group_id"
+        )
+    if given.reason is not None and (given.verdict != "reject" or given.reason not in REASONS):
+        raise InvalidInput(
+            f"{given.reason!r:.60} can't be the reason of the verdict {given.verdict}",
+            where=f"{where}.reason",
+            expected=f"{', '.join(REASONS)}, with the verdict reject",
         )
     target = None if given.target_group_id is None else _uuid(given.target_group_id, number, "target_group_id")
     return Wish(
@@ -164,15 +218,16 @@ def _checked(given: DecisionGiven, number: int) -> Wish:
         kind=given.kind,
         target_group_id=target,
         elapsed_ms=given.elapsed_ms,
+        reason=given.reason,
+        suggestion=given.suggestion,
     )
 
 
-def _stored(session: Session, client_ids: Sequence[str]) -> dict[str, Decision]:
-    rows: dict[str, Decision] = {}
+def _stored(session: Session, ledger: Ledger, client_ids: Sequence[str]) -> dict[str, Decision | SecondDecision]:
+    rows: dict[str, Decision | SecondDecision] = {}
     for batch in in_batches(client_ids):
-        rows.update(
-            {row.client_id: row for row in session.scalars(select(Decision).where(Decision.client_id.in_(batch)))}
-        )
+        found = session.scalars(select(ledger.rows).where(ledger.rows.client_id.in_(batch)))
+        rows.update({row.client_id: row for row in found})
     return rows
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
-from sqlalchemy import Row, select
+from sqlalchemy import Row, and_, or_, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Camera, Dataset, Image, Review, Segment, Split, SplitImage, SplitVersion
+from app.db.models import Camera, Dataset, Image, Review, Segment, SegmentState, Split, SplitImage, SplitVersion
 from app.errors import Conflict
+from app.evaluation.rejected_lines import REASONS, RejectedLines
 from app.formats.labelled import LabelledSegments
 from app.formats.npz import write_npz_set
 from app.services.batches import in_batches
@@ -36,11 +37,12 @@ class NotFrozen(Conflict):
 
 @dataclass(frozen=True)
 class FrozenImage:
-    """An image with the labels that are frozen."""
+    """An image with the labels that are frozen, and the candidates that were rejected with a reason, if any."""
 
     image: Image
     camera: Camera
     labelled: LabelledSegments
+    rejected: RejectedLines | None
 
 
 def freeze(
@@ -81,7 +83,8 @@ def freeze(
             hint="keep some, or lower the minimum length",
         )
     last = max(split.versions, key=lambda version: version.number, default=None)
-    name = truth_hash(truth, split.min_length)
+    rejected = {each.image.name: each.rejected for each in frozen if each.rejected is not None}
+    name = truth_hash(truth, split.min_length, rejected)
     if last is not None and last.truth_hash == name:
         raise NotFrozen(f"no label has changed since version {last.number}", where=split.slug)
     version = SplitVersion(
@@ -108,7 +111,11 @@ def frozen_images(session: Session, image_ids: Sequence[int]) -> list[FrozenImag
     for batch in in_batches(image_ids):
         segments = _segments_by_image(session, batch)
         rows = session.execute(select(Image, Camera).join(Image.camera).where(Image.id.in_(batch)))
-        found += [FrozenImage(image, camera, _labelled(segments.get(image.id, []))) for image, camera in rows]
+        for image, camera in rows:
+            own = segments.get(image.id, [])
+            labels = [row for row in own if row.verdict != "reject"]
+            rejects = [row for row in own if row.verdict == "reject"]
+            found.append(FrozenImage(image, camera, _labelled(labels), _rejected(rejects)))
     return sorted(found, key=lambda each: each.image.name)
 
 
@@ -158,8 +165,9 @@ def _require_freezable(session: Session, split: Split, images: Sequence[tuple[Im
 
 def _segments_by_image(session: Session, ids: Sequence[int]) -> dict[int, list[Row]]:
     verdict = verdict_of_segment()
-    query = current_segments(Segment.image_id, Segment.points, verdict.label("verdict")).where(
-        Segment.image_id.in_(ids), verdict.in_(("keep", "ambiguous"))
+    because = and_(verdict == "reject", SegmentState.reason.is_not(None))
+    query = current_segments(Segment.image_id, Segment.points, verdict.label("verdict"), SegmentState.reason).where(
+        Segment.image_id.in_(ids), or_(verdict.in_(("keep", "ambiguous")), because)
     )
     by_image: dict[int, list[Row]] = {}
     for row in session.execute(query):
@@ -168,8 +176,16 @@ def _segments_by_image(session: Session, ids: Sequence[int]) -> dict[int, list[R
 
 
 def _labelled(rows: Sequence[Row]) -> LabelledSegments:
-    points = [np.frombuffer(row.points, POINT).reshape(-1, 2) for row in rows]
-    return LabelledSegments(Segments.from_list(points), verdicts=tuple(row.verdict for row in rows))
+    return LabelledSegments(_segments(rows), verdicts=tuple(row.verdict for row in rows))
+
+
+def _rejected(rows: Sequence[Row]) -> RejectedLines | None:
+    reasons = np.array([REASONS.index(row.reason) for row in rows], np.int8)
+    return RejectedLines(_segments(rows), reasons) if rows else None
+
+
+def _segments(rows: Sequence[Row]) -> Segments:
+    return Segments.from_list([np.frombuffer(row.points, POINT).reshape(-1, 2) for row in rows])
 
 
 def _ambiguous(labelled: LabelledSegments) -> int:
@@ -191,4 +207,5 @@ def _row(version: SplitVersion, ordinal: int, each: FrozenImage, labels: int) ->
         camera=each.camera.name,
         reference=each.camera.reference,
         n_labels=labels,
+        rejected=None if each.rejected is None else each.rejected.as_npz(),
     )

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from datetime import datetime
 from typing import Any
 
-from sqlalchemy import func, select
+from sqlalchemy import func, or_, select
 from sqlalchemy.orm import Session
 
-from app.db.models import CameraEstimate, Dataset, Image, Review, RunImage
-from app.services.cameras import latest_estimates
+from app.db.models import Dataset, Image, Review, RunImage
+from app.services.image_lens import lens_fields
 from app.services.image_summaries import ImageSummary, image_summary
+from app.services.leases import is_held_by_another
 from app.services.run_briefs import RunBrief, run_briefs
 
 
@@ -29,7 +31,8 @@ class Neighbours:
     Attributes:
         previous_id: The image before; ``None`` at the beginning.
         next_id: The image after; ``None`` at the end.
-        next_open_id: The first open image after it, else the first open one from the beginning; never itself.
+        next_open_id: The first open image after it, else the first open one from the beginning; never itself, nor one
+            that is another person's task or that another person has open.
         position: From 1.
         total: Images of the dataset.
     """
@@ -63,11 +66,18 @@ class ImageDetail(ImageSummary):
     changes: dict[str, Any] | None
 
 
-def image_detail(session: Session, image: Image) -> ImageDetail:
-    """Return an image with its neighbours, lens and run."""
+def image_detail(session: Session, image: Image, now: datetime, *, person: str | None = None) -> ImageDetail:
+    """Return an image with its neighbours, lens and run.
+
+    Args:
+        session: Any session.
+        image: The image.
+        now: Time of the request.
+        person: Who looks for the next image to review; without one nobody's tasks are passed over.
+    """
     summary = image_summary(session, image)
     dataset = session.get_one(Dataset, image.dataset_id)
-    beside = neighbours(session, image)
+    beside = neighbours(session, image, now, person=person)
     work = session.get(RunImage, image.current_run_image_id) if image.current_run_image_id else None
     return ImageDetail(
         **{field.name: getattr(summary, field.name) for field in fields(summary)},
@@ -77,27 +87,21 @@ def image_detail(session: Session, image: Image) -> ImageDetail:
         next_open_id=beside.next_open_id,
         position=beside.position,
         total=beside.total,
-        camera_estimate=_lens_of(session, image, work),
+        camera_estimate=lens_fields(session, image, work),
         run=run_briefs(session, [work.run_id]).get(work.run_id) if work else None,
         changes=work.changes if work else None,
     )
 
 
-def _lens_of(session: Session, image: Image, work: RunImage | None) -> dict[str, Any] | None:
-    """Return the distortion that the image's candidates were judged under, else its camera's newest one."""
-    if work is not None and work.distortion is not None:
-        return work.distortion
-    if work is not None and work.camera_estimate_id is not None:
-        return session.get_one(CameraEstimate, work.camera_estimate_id).distortion
-    return latest_estimates(session, [image.camera_id]).get(image.camera_id)
-
-
-def neighbours(session: Session, image: Image) -> Neighbours:
+def neighbours(session: Session, image: Image, now: datetime, *, person: str | None = None) -> Neighbours:
     """Return an image's place among the images of its dataset that aren't deleted."""
     alive = (Image.dataset_id == image.dataset_id) & Image.deleted_at.is_(None)
     ids = select(Image.id).where(alive)
     forwards, backwards = Image.name.asc(), Image.name.desc()
     still_open = ids.join(Review, Review.image_id == Image.id).where(Review.status == "open", Image.id != image.id)
+    if person is not None:
+        still_open = still_open.where(or_(Image.assignee.is_(None), Image.assignee == person))
+        still_open = still_open.where(~is_held_by_another(person, now))
     after = Image.name > image.name
     return Neighbours(
         previous_id=session.scalar(ids.where(Image.name < image.name).order_by(backwards).limit(1)),

@@ -9,6 +9,7 @@ from sqlalchemy.orm import InstrumentedAttribute, Session
 
 from app.db.models import REVIEW_STATES, Camera, Dataset, Image, Review, Run, RunImage
 from app.errors import InvalidInput
+from app.services.image_candidates import candidate_conditions
 from app.services.image_summaries import ImageSummary, latest_work, select_summaries, summaries_of
 from app.services.paging import Order, Page, checked_limit, page_of
 
@@ -33,6 +34,11 @@ class ImageFilter:
 
     Attributes:
         search: Part of the name, in any case.
+        assignee: Whose task they are; empty for those that are nobody's.
+        person: Who decided on some of their candidates.
+        verdict: That at least one of their candidates has.
+        min_score: With a candidate of at least this score.
+        max_score: With a candidate of at most this score; with both, one candidate's score is between them.
         deleted: Those that are deleted and can still be restored, instead of the others.
     """
 
@@ -42,6 +48,11 @@ class ImageFilter:
     sequence: str | None = None
     prelabel: str | None = None
     search: str | None = None
+    assignee: str | None = None
+    person: str | None = None
+    verdict: str | None = None
+    min_score: float | None = None
+    max_score: float | None = None
     deleted: bool = False
 
 
@@ -68,6 +79,7 @@ class Facets:
 
     sources: tuple[Facet, ...]
     sequences: tuple[Facet, ...]
+    assignees: tuple[Facet, ...]
     cameras: tuple[CameraFacet, ...]
     status: dict[str, int]
     prelabel: dict[str, int]
@@ -105,7 +117,7 @@ def select_images(dataset: Dataset, chosen: ImageFilter) -> Select[Image, Review
     """Select ``Image``, ``Review`` and the camera's name of the images that the filter chooses, in no order.
 
     Raises:
-        InvalidInput: On an unknown status or prelabel state.
+        InvalidInput: On an unknown status, prelabel state or verdict.
     """
     query = (
         select_summaries()
@@ -122,6 +134,9 @@ def select_images(dataset: Dataset, chosen: ImageFilter) -> Select[Image, Review
         query = query.where(Image.camera_id == chosen.camera)
     if chosen.search:
         query = query.where(Image.name.icontains(chosen.search, autoescape=True))
+    if chosen.assignee is not None:
+        query = query.where(_equals(Image.assignee, chosen.assignee))
+    query = query.where(*candidate_conditions(chosen.person, chosen.verdict, chosen.min_score, chosen.max_score))
     if chosen.prelabel is not None:
         state = _known(chosen.prelabel, PRELABEL_STATES, "prelabel")
         latest = latest_work(Run.dataset_id == dataset.id)
@@ -154,6 +169,7 @@ def facets(session: Session, dataset: Dataset) -> Facets:
     return Facets(
         sources=_facet(session, Image.source, alive),
         sequences=_facet(session, Image.sequence, alive),
+        assignees=_facet(session, Image.assignee, alive),
         cameras=tuple(CameraFacet(*row) for row in cameras),
         status=dict.fromkeys(REVIEW_STATES, 0) | dict(session.execute(statuses).all()),
         prelabel=dict.fromkeys(PRELABEL_STATES, 0) | dict(session.execute(prelabel).all()),

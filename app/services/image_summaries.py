@@ -28,6 +28,7 @@ class ImageSummary:
 
     Attributes:
         bits: Per channel, 8 or 16.
+        assignee: Whose task it is; ``None`` while it is nobody's.
         status: Of its review: open, done or discarded; ``reason`` says why it was discarded.
         prelabel: Of the newest run that includes it: none, queued, running, done or failed.
         error: Why that run failed on it (see ``ClearLinesError.as_dict``).
@@ -43,6 +44,7 @@ class ImageSummary:
     camera: CameraName
     source: str | None
     sequence: str | None
+    assignee: str | None
     status: str
     reason: str | None
     prelabel: str
@@ -91,6 +93,7 @@ def _summary(image: Image, review: Review, camera: str, work: RunImage | None) -
         camera=CameraName(image.camera_id, camera),
         source=image.source,
         sequence=image.sequence,
+        assignee=image.assignee,
         status=review.status,
         reason=review.reason,
         prelabel=work.status if work else "none",

@@ -5,16 +5,18 @@ from __future__ import annotations
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import Decision, Segment
+from app.db.models import ORIGINS, Decision, Segment, SegmentState
 from app.services.candidates import current_segments, verdict_of_segment
 from app.services.deciding import DecisionsStored, decide
 from app.services.decision_batch import DecisionGiven
 from app.services.images import get_image
+from app.services.stale_verdicts import last_decision_id
 
 STRAIGHT = 0.5
 """From this straightness on a candidate passes the filter."""
@@ -33,9 +35,8 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class SegmentEntry:
-    """A current segment without its points.
+class SegmentEntry(NamedTuple):
+    """A current segment without its points; a tuple, for there are thousands and somebody waits.
 
     Attributes:
         ordinal: Its place among the segments of its origin and run.
@@ -44,6 +45,7 @@ class SegmentEntry:
         score: Evidence for an edge, in [0, 1].
         straightness: Probability of being straight under the lens, in [0, 1].
         straight: Whether it passes the straightness filter; nothing is held against what isn't judged yet.
+        reason: Why it was rejected, where that was said.
         box: x0, y0, x1, y1 in px.
     """
 
@@ -56,6 +58,7 @@ class SegmentEntry:
     straightness: float | None
     straight: bool
     verdict: str
+    reason: str | None
     origin: str
     box: tuple[float, float, float, float]
 
@@ -66,10 +69,12 @@ class ImageSegments:
 
     Attributes:
         revision: Rises whenever the set of segments, or what is known of them, changes other than by a decision.
+        last_decision_id: The image's last decision that these verdicts follow; 0 without any.
     """
 
     image_id: int
     revision: int
+    last_decision_id: int
     width: int
     height: int
     segments: tuple[SegmentEntry, ...]
@@ -82,40 +87,34 @@ def segments_of_image(session: Session, image_id: int) -> ImageSegments:
         NotFound: When there is no such image, or it is deleted.
     """
     image = get_image(session, image_id)
-    rows = session.execute(
-        current_segments(
-            Segment.id,
-            Segment.ordinal,
-            Segment.n_points,
-            Segment.length,
-            Segment.residual,
-            Segment.score,
-            Segment.straightness,
-            verdict_of_segment().label("verdict"),
-            Segment.origin,
-            Segment.x0,
-            Segment.y0,
-            Segment.x1,
-            Segment.y1,
-        ).where(Segment.image_id == image_id)
+    last = last_decision_id(session, image_id)
+    rows = (
+        session.connection()
+        .execute(
+            current_segments(
+                Segment.id,
+                Segment.ordinal,
+                Segment.n_points,
+                Segment.length,
+                Segment.residual,
+                Segment.score,
+                Segment.straightness,
+                verdict_of_segment(),
+                SegmentState.reason,
+                Segment.origin,
+                Segment.x0,
+                Segment.y0,
+                Segment.x1,
+                Segment.y1,
+            ).where(Segment.image_id == image_id)
+        )
+        .all()
     )
     segments = tuple(
-        SegmentEntry(
-            id=row.id,
-            ordinal=row.ordinal,
-            n_points=row.n_points,
-            length=row.length,
-            residual=row.residual,
-            score=row.score,
-            straightness=row.straightness,
-            straight=row.straightness is None or row.straightness >= STRAIGHT,
-            verdict=row.verdict,
-            origin=row.origin,
-            box=(row.x0, row.y0, row.x1, row.y1),
-        )
-        for row in rows
+        SegmentEntry._make((*row[:7], row[6] is None or row[6] >= STRAIGHT, *row[7:10], row[10:]))
+        for row in map(tuple, rows)
     )
-    return ImageSegments(image.id, image.revision, image.width, image.height, segments)
+    return ImageSegments(image.id, image.revision, last, image.width, image.height, segments)
 
 
 def points_of_image(session: Session, image_id: int) -> bytes:
@@ -128,14 +127,22 @@ def points_of_image(session: Session, image_id: int) -> bytes:
         NotFound: When there is no such image, or it is deleted.
     """
     image = get_image(session, image_id)
-    rows = session.execute(
-        current_segments(Segment.id, Segment.n_points, Segment.points).where(Segment.image_id == image_id)
-    ).all()
-    counts = np.array([row.n_points for row in rows], dtype="<u4")
+    # sorted here: a database would carry all points through its own sorting
+    rows = sorted(
+        session.connection()
+        .execute(
+            current_segments(Segment.origin, Segment.ordinal, Segment.id, Segment.n_points, Segment.points)
+            .where(Segment.image_id == image_id)
+            .order_by(None)
+        )
+        .all(),
+        key=lambda row: (ORIGINS.index(row[0]), row[1], row[2]),
+    )
+    counts = np.array([row[3] for row in rows], dtype="<u4")
     offsets = np.concatenate([np.zeros(1, "<u4"), np.cumsum(counts, dtype="<u4")])
-    ids = np.array([row.id for row in rows], dtype="<u4")
+    ids = np.array([row[2] for row in rows], dtype="<u4")
     header = struct.pack("<4sIII", POINTS_MAGIC, image.revision, len(rows), int(offsets[-1]))
-    return b"".join([header, ids.tobytes(), offsets.astype("<u4").tobytes(), *(row.points for row in rows)])
+    return b"".join([header, ids.tobytes(), offsets.astype("<u4").tobytes(), *(row[4] for row in rows)])
 
 
 def history(session: Session, image_id: int) -> Sequence[Decision]:

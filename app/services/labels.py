@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
-from sqlalchemy import select
+from sqlalchemy import Select, func, select
 from sqlalchemy.orm import Session
 
 from app.db.models import Decision, Image, Segment, SegmentState
@@ -63,24 +64,30 @@ def import_labels(
         Whether anything was stored: labels of an image that has imported ones already are left alone.
     """
     session.execute(select(Image.id).where(Image.id == image.id).with_for_update())
-    known = select(Segment.id).where(Segment.image_id == image.id, Segment.origin == "import").limit(1)
     judged = labels.judged()
-    if session.scalar(known) is not None or not (newly_added or any(len(part) for part, _ in judged)):
+    if _has_labels(session, image, judged) or not (newly_added or any(len(part) for part, _ in judged)):
         return False
     rows: list[Segment] = []
     verdicts: list[str] = []
+    reasons: list[str | None] = []
+    first = session.scalar(_imported(image).with_only_columns(func.count(Segment.id))) or 0
     for part, words in judged:
-        rows += segment_rows(image.id, part, first_ordinal=len(rows))
+        rows += segment_rows(image.id, part, first_ordinal=first + len(rows))
         verdicts += words
+        reasons += part.reasons or (None,) * len(part)
     session.add_all(rows)
     image.revision += 1
     session.flush()
-    decided = zip(rows, verdicts, strict=True)
-    decisions = [_decision(row, verdict, person, now) for row, verdict in decided if verdict != "undecided"]
+    decided = zip(rows, verdicts, reasons, strict=True)
+    decisions = [
+        _decision(row, verdict, reason, person, now) for row, verdict, reason in decided if verdict != "undecided"
+    ]
     session.add_all(decisions)
     session.flush()
     session.add_all(
-        SegmentState(segment_id=decision.segment_id, verdict=decision.verdict, decision_id=decision.id)
+        SegmentState(
+            segment_id=decision.segment_id, verdict=decision.verdict, reason=decision.reason, decision_id=decision.id
+        )
         for decision in decisions
     )
     refresh_counts(session, [image.id])
@@ -89,6 +96,19 @@ def import_labels(
         image.review.status, image.review.person, image.review.updated_at = "done", person, now
     session.flush()
     return True
+
+
+def _has_labels(session: Session, image: Image, judged: Sequence[tuple[LabelledSegments, tuple[str, ...]]]) -> bool:
+    """Whether labels were imported before: any with a verdict, or one of these; imported candidates are none."""
+    decided = _imported(image).join(Decision, Decision.segment_id == Segment.id).where(Decision.kind == "import")
+    if session.scalar(decided.limit(1)) is not None:
+        return True
+    known = set(session.scalars(_imported(image).with_only_columns(Segment.points)))
+    return any(polyline.astype(POINT).tobytes() in known for part, _ in judged for polyline in part.segments)
+
+
+def _imported(image: Image) -> Select[int]:
+    return select(Segment.id).where(Segment.image_id == image.id, Segment.origin == "import")
 
 
 def segment_rows(image_id: int, labelled: LabelledSegments, *, first_ordinal: int = 0) -> list[Segment]:
@@ -116,7 +136,7 @@ def segment_rows(image_id: int, labelled: LabelledSegments, *, first_ordinal: in
     ]
 
 
-def _decision(row: Segment, verdict: str, person: str | None, now: datetime) -> Decision:
+def _decision(row: Segment, verdict: str, reason: str | None, person: str | None, now: datetime) -> Decision:
     # ids that follow from the segment: the same import can't be stored twice
     return Decision(
         image_id=row.image_id,
@@ -125,6 +145,7 @@ def _decision(row: Segment, verdict: str, person: str | None, now: datetime) -> 
         verdict=verdict,
         previous="undecided",
         kind="import",
+        reason=reason,
         client_id=str(uuid5(NAMESPACE_URL, f"import/segment/{row.id}")),
         group_id=str(uuid5(NAMESPACE_URL, f"import/image/{row.image_id}")),
         created_at=now,

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from sqlalchemy import and_, delete, exists, select, text, update
+from sqlalchemy import and_, delete, exists, or_, select, text, update
 from sqlalchemy.orm import Session
 
 from app.db.models import (
@@ -17,6 +17,7 @@ from app.db.models import (
     Image,
     Run,
     RunImage,
+    SecondDecision,
     Segment,
     Submission,
 )
@@ -96,7 +97,9 @@ def _purge_runs(database: Database, deadline: datetime, now: datetime) -> int:
 
 def _purge_run(session: Session, run: Run, now: datetime) -> None:
     of_run = Segment.run_image_id.in_(select(RunImage.id).where(RunImage.run_id == run.id))
-    decided_ever = exists().where(Decision.segment_id == Segment.id)
+    decided_ever = or_(
+        exists().where(Decision.segment_id == Segment.id), exists().where(SecondDecision.segment_id == Segment.id)
+    )
     images = list(session.scalars(select(RunImage.image_id).where(RunImage.run_id == run.id)))
     never = delete(Segment).where(of_run, ~decided_ever)
     session.execute(never.execution_options(synchronize_session=False))

@@ -18,6 +18,7 @@ from app.evaluation.ground_truth import GroundTruth
 from app.evaluation.image_record import ImageRecord
 from app.evaluation.outcome import Outcome, Outcomes
 from app.evaluation.overlay import draw_overlay
+from app.evaluation.rejected_lines import reason_name
 from app.images.decode import decode_display
 from app.services.labelling import POINTS_MAGIC
 from app.services.scoring_inputs import predictions_of
@@ -71,7 +72,11 @@ class LabelEntry:
 
 @dataclass(frozen=True)
 class PredictionEntry:
-    """What became of a prediction; offset (px) and angle (rad) are those of true positives."""
+    """What became of a prediction.
+
+    Offset (px) and angle (rad) are those of true positives. ``rejected_as`` is the reason for which people rejected
+    the line that a false positive is.
+    """
 
     index: int
     outcome: str
@@ -82,6 +87,7 @@ class PredictionEntry:
     offset: float | None
     angle: float | None
     error_type: str | None
+    rejected_as: str | None
 
 
 def scored_segments(
@@ -144,6 +150,7 @@ def prediction_entries(scored: ScoredSegments) -> list[PredictionEntry]:
         record.offset.tolist(),
         record.angle.tolist(),
         record.prediction_errors.tolist(),
+        record.prediction_reasons.tolist(),
         strict=True,
     )
     return [
@@ -157,8 +164,9 @@ def prediction_entries(scored: ScoredSegments) -> list[PredictionEntry]:
             offset=None if np.isnan(offset) else offset,
             angle=None if np.isnan(angle) else angle,
             error_type=error_name(error),
+            rejected_as=reason_name(reason),
         )
-        for index, (outcome, score, length, label, liou, offset, angle, error) in enumerate(columns)
+        for index, (outcome, score, length, label, liou, offset, angle, error, reason) in enumerate(columns)
     ]
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from sqlalchemy import select
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, undefer
 
 from app.db.models import ImageScore, SplitImage
 from app.errors import NotFound
+from app.evaluation.rejected_lines import RejectedLines
 from app.evaluation.submission_scoring import ImageRecord, ScoredImage, SplitImageInfo
 from app.formats.labelled import LabelledSegments
 from app.services.batches import in_batches
@@ -30,6 +31,11 @@ def predictions_of(segments: SegmentSet, name: str) -> Segments:
     return segments[name].segments if name in segments else Segments.empty()
 
 
+def rejected_of(image: SplitImage) -> RejectedLines | None:
+    """Return an image's candidates that were rejected with a reason, as they were frozen."""
+    return None if image.rejected is None else RejectedLines.from_npz(image.rejected)
+
+
 def images_to_score(
     session: Session, ids: Sequence[int], truth: SegmentSet, segments: SegmentSet, min_length: float
 ) -> list[ScoredImage]:
@@ -47,12 +53,16 @@ def images_to_score(
     """
     rows: dict[int, SplitImage] = {}
     for batch in in_batches(ids):
-        rows |= {row.id: row for row in session.scalars(select(SplitImage).where(SplitImage.id.in_(batch)))}
+        query = select(SplitImage).where(SplitImage.id.in_(batch)).options(undefer(SplitImage.rejected))
+        rows |= {row.id: row for row in session.scalars(query)}
     if len(rows) < len(set(ids)):
         raise NotFound("an image of the split is gone")
     images = [rows[image_id] for image_id in ids]
     truths = ground_truths({image.name: truth[image.name] for image in images}, min_length)
-    return [ScoredImage(info_of(image), truths[image.name], predictions_of(segments, image.name)) for image in images]
+    return [
+        ScoredImage(info_of(image), truths[image.name], predictions_of(segments, image.name), rejected_of(image))
+        for image in images
+    ]
 
 
 def recorded_images(session: Session, score_id: int) -> tuple[list[int], list[ImageRecord]]:

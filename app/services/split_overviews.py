@@ -11,13 +11,14 @@ from sqlalchemy.orm import Session, selectinload
 
 from app.db.models import Dataset, Decision, Image, Split, SplitImage, SplitVersion, Submission
 from app.evaluation.protocols import PROTOCOLS
+from app.evaluation.rejected_lines import RejectedLines
 from app.formats.labelled import LabelledSegments
 from app.services.access import Viewer, can_maintain, can_see_details, can_submit
 from app.services.concealing import require_visible, visible_datasets
 from app.services.datasets import get_dataset
 from app.services.freezing import frozen_images
 from app.services.splits import current_version, is_closed
-from app.services.truths import read_truth, truth_hash
+from app.services.truths import read_rejected, read_truth, truth_hash
 from app.storage import BlobStore
 
 RANK_PROTOCOL = "clearlines-v2"
@@ -166,17 +167,17 @@ def labels_since(session: Session, blobs: BlobStore, split: Split) -> LabelsSinc
     frozen_names = {row.id: row.name for row in rows if row.id in decided}
     if not frozen_names:
         return LabelsSince((), gone)
-    frozen = read_truth(blobs, version)
+    frozen, rejected = read_truth(blobs, version), read_rejected(session, version)
     changed = [
         name
         for each in frozen_images(session, list(frozen_names))
-        if _differ(each.labelled, frozen[name := frozen_names[each.image.id]])
+        if _hash(each.labelled, each.rejected) != _hash(frozen[name := frozen_names[each.image.id]], rejected.get(name))
     ]
     return LabelsSince(tuple(sorted(changed)), gone)
 
 
-def _differ(labelled: LabelledSegments, frozen: LabelledSegments) -> bool:
-    return truth_hash({"": labelled}, 0.0) != truth_hash({"": frozen}, 0.0)
+def _hash(labelled: LabelledSegments, rejected: RejectedLines | None) -> str:
+    return truth_hash({"": labelled}, 0.0, None if rejected is None else {"": rejected})
 
 
 def _datasets(session: Session, ids: Sequence[int], viewer: Viewer) -> dict[int, DatasetName]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import shutil
 import time
 import zipfile
 from collections.abc import Callable, Iterator
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from numpy.typing import NDArray
+from sqlalchemy import make_url
 
 from app.api.application import create_application
 from app.settings import Settings
@@ -54,8 +56,12 @@ def wait_until(condition: Callable[[], Any], *, seconds: float = 60.0) -> Any:
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    return Settings(data_dir=tmp_path / "data", workers=1)
+def settings(tmp_path: Path, sqlite_template: Path) -> Settings:
+    """Of a server that finds its tables made: that takes longer than most tests."""
+    settings = Settings(data_dir=tmp_path / "data", workers=1)
+    settings.data_dir.mkdir()
+    shutil.copy(sqlite_template, str(make_url(settings.database_address).database))
+    return settings
 
 
 @pytest.fixture

@@ -30,12 +30,9 @@ MIN_LENGTH = 50.0
 LABELS = "_edge_segments_filtered.npy"
 DETECTORS: Mapping[str, Callable[[Any, float], Segments]] = {"OpenCV LSD": detect_lsd, "Pipeline": detect_candidates}
 
-pytestmark = [
-    pytest.mark.xdist_group("york board"),
-    pytest.mark.skipif(
-        not YORK.is_dir() or not SCORER.is_file(), reason="the photos with marked lines aren't beside the project"
-    ),
-]
+pytestmark = pytest.mark.skipif(
+    not YORK.is_dir() or not SCORER.is_file(), reason="the photos with marked lines aren't beside the project"
+)
 
 
 @pytest.fixture(scope="module")

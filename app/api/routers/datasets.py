@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from fastapi import APIRouter, status
 
 from app.api.deps import Now, Reader, ServerDep, ViewerDep
 from app.api.problems import answers
 from app.api.schemas.datasets import DatasetAnswer, DatasetChange, DatasetGiven, Deleted
-from app.services import dataset_overviews, datasets
+from app.services import dataset_overviews, dataset_rules, datasets
 
 router = APIRouter(prefix="/datasets", tags=["datasets"])
 
@@ -39,6 +41,7 @@ def change_dataset(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, gi
     texts = {name: getattr(given, name) for name in given.model_fields_set & set(datasets.CARD_TEXTS)}
     with server.database.write() as session:
         dataset = datasets.describe_dataset(session, slug, texts, now, person=viewer.name)
+        dataset_rules.change_rules(session, slug, now, person=viewer.name, **_rules(given))
         if given.name is not None:
             datasets.rename_dataset(session, slug, given.name, now, person=viewer.name)
         return _answer(server, session, dataset.slug)
@@ -60,6 +63,13 @@ def restore_dataset(server: ServerDep, viewer: ViewerDep, now: Now, slug: str) -
         answer = _answer(server, session, dataset.slug)
     server.dispatcher.wake()
     return answer
+
+
+def _rules(given: DatasetChange) -> dict[str, Any]:
+    changes: dict[str, Any] = dict.fromkeys(given.model_fields_set & {"guidelines"}, given.guidelines)
+    if "rules" in given.model_fields_set:
+        changes["rules"] = dataset_rules.Rules(**({} if given.rules is None else given.rules.model_dump()))
+    return changes
 
 
 def _answer(server: ServerDep, session: Reader, slug: str) -> DatasetAnswer:

@@ -9,9 +9,9 @@ from fastapi.responses import FileResponse
 
 from app.api.deps import Cursor, Limit, Now, Reader, ServerDep, ViewerDep
 from app.api.freshness import IfNoneMatch
-from app.api.pixels import PIXELS, ThumbnailSize, display_answer, original_answer, thumbnail_answer
+from app.api.pixels import PIXELS, ThumbnailSize, display_answer, original_answer, thumbnail_answer, view_answer
 from app.api.problems import answers
-from app.api.schemas.base import ReviewState, RowId
+from app.api.schemas.base import ReviewState, RowId, Verdict
 from app.api.schemas.datasets import Deleted, Restored
 from app.api.schemas.images import (
     Facets,
@@ -24,7 +24,9 @@ from app.api.schemas.images import (
     Updated,
 )
 from app.services import image_changes, image_details, image_lists, images
+from app.services.concealing import require_visible
 from app.services.datasets import get_dataset
+from app.services.image_views import View, viewed_image
 
 router = APIRouter(tags=["images"], responses=answers(404))
 
@@ -42,6 +44,11 @@ def list_images(
     sequence: str | None = None,
     prelabel: PrelabelState | None = None,
     search: Annotated[str | None, Query(max_length=300, description="Part of the name.")] = None,
+    assignee: Annotated[str | None, Query(max_length=200, description="Whose task; empty: nobody's.")] = None,
+    person: Annotated[str | None, Query(max_length=200, description="Who decided on some candidates.")] = None,
+    verdict: Annotated[Verdict | None, Query(description="Of at least one candidate.")] = None,
+    min_score: Annotated[float | None, Query(ge=0, le=1, description="Of at least one candidate.")] = None,
+    max_score: Annotated[float | None, Query(ge=0, le=1, description="Of at least one candidate.")] = None,
     sort: Sort = "name",
     deleted: bool = False,
     limit: Limit = 100,
@@ -55,6 +62,11 @@ def list_images(
         sequence=sequence,
         prelabel=prelabel,
         search=search,
+        assignee=assignee,
+        person=person,
+        verdict=verdict,
+        min_score=min_score,
+        max_score=max_score,
         deleted=deleted,
     )
     dataset = get_dataset(session, slug)
@@ -99,9 +111,10 @@ def restore_images(server: ServerDep, viewer: ViewerDep, now: Now, slug: str, gi
 
 
 @router.get("/images/{image_id}")
-def read_image(session: Reader, image_id: RowId) -> ImageDetail:
+def read_image(session: Reader, viewer: ViewerDep, now: Now, image_id: RowId) -> ImageDetail:
     """Return an image with its neighbours, its lens and its run."""
-    return ImageDetail.model_validate(image_details.image_detail(session, images.get_image(session, image_id)))
+    image = images.get_image(session, image_id)
+    return ImageDetail.model_validate(image_details.image_detail(session, image, now, person=viewer.name))
 
 
 @router.patch("/images/{image_id}", responses=answers(409))
@@ -114,7 +127,7 @@ def change_image(server: ServerDep, viewer: ViewerDep, now: Now, image_id: RowId
         if given.name is not None:
             image_changes.rename_image(session, image, given.name, now, person=viewer.name)
         session.refresh(image)
-        return ImageDetail.model_validate(image_details.image_detail(session, image))
+        return ImageDetail.model_validate(image_details.image_detail(session, image, now, person=viewer.name))
 
 
 @router.delete("/images/{image_id}")
@@ -135,22 +148,41 @@ def read_original(server: ServerDep, session: Reader, image_id: RowId, if_none_m
     return original_answer(server, image.sha256, image.file_name, if_none_match)
 
 
-@router.get("/images/{image_id}/display", response_class=Response, responses={**PIXELS})
-def read_display(server: ServerDep, session: Reader, image_id: RowId, if_none_match: IfNoneMatch = None) -> Response:
-    """Return the image in a form that a browser shows, pixels as stored: no EXIF rotation, 16 bit brought to 8."""
-    return display_answer(server, images.get_image(session, image_id).sha256, if_none_match)
+@router.get("/images/{image_id}/display", response_class=Response, responses={**PIXELS, **answers(409)})
+def read_display(
+    server: ServerDep,
+    viewer: ViewerDep,
+    image_id: RowId,
+    view: Annotated[
+        View, Query(description="As stored; equalised (CLAHE); or with the lens's distortion taken out, in one size.")
+    ] = "plain",
+    if_none_match: IfNoneMatch = None,
+) -> Response:
+    """Return the image in a form that a browser shows, pixels as stored: no EXIF rotation, 16 bit brought to 8.
+
+    The view ``undistorted`` answers 409 while the lens isn't known; ``points`` gives the candidates in the same view.
+    """
+    with server.database.read() as session:  # given back before the image is decoded
+        if view == "undistorted":  # no pixels alone: the lens is learnt from the labels
+            require_visible(session, viewer, {"image_id": str(image_id)})
+        image = images.get_image(session, image_id)
+        viewed = None if view == "plain" else viewed_image(session, image, view)
+    if viewed is None:
+        return display_answer(server, image.sha256, if_none_match)
+    return view_answer(server, viewed, if_none_match)
 
 
 @router.get("/images/{image_id}/thumbnail", response_class=Response, responses={**PIXELS})
 def read_thumbnail(
     server: ServerDep,
-    session: Reader,
     image_id: RowId,
     size: ThumbnailSize = ThumbnailSize.MEDIUM,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Return a small picture whose longer side is ``size`` px."""
-    return thumbnail_answer(server, images.get_image(session, image_id).sha256, size, if_none_match)
+    with server.database.read() as session:  # given back before the image is decoded
+        sha256 = images.get_image(session, image_id).sha256
+    return thumbnail_answer(server, sha256, size, if_none_match)
 
 
 def _changes(given: ImagesChange | ImageChange) -> image_changes.ImageChanges:

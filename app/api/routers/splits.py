@@ -13,11 +13,15 @@ from app.api.pixels import PIXELS, ThumbnailSize, display_answer, original_answe
 from app.api.problems import answers
 from app.api.schemas.base import RowId
 from app.api.schemas.splits import SplitAnswer, SplitChange, SplitGiven, SplitImagePage, VersionGiven
+from app.api.schemas.submissions import SubmissionAnswer
 from app.errors import NotFound
 from app.formats.json_writer import write_json_set
 from app.services import split_images, split_overviews, splits
 from app.services.access import can_see_details
-from app.services.truths import read_truth
+from app.services.ceilings import add_ceiling
+from app.services.submission_access import get_submission
+from app.services.submission_views import submission_view
+from app.services.truths import read_truth_with_reasons
 
 router = APIRouter(tags=["splits"], responses=answers(404))
 TRUTH = {
@@ -85,6 +89,19 @@ def freeze_again(
         return SplitAnswer.model_validate(split_overviews.split_overview(session, server.blobs, frozen, viewer, now))
 
 
+@router.post("/splits/{split}/ceiling", status_code=status.HTTP_202_ACCEPTED, responses=answers(409))
+def make_ceiling(server: ServerDep, viewer: ViewerDep, now: Now, split: str) -> SubmissionAnswer:
+    """Put what second reviewers kept on the board, as a row without a rank: how well people do against one another.
+
+    409 naming the images of the newest version that nobody has reviewed a second time.
+    """
+    submission_id = add_ceiling(server.database, server.blobs, split, now, person=viewer.name)
+    server.dispatcher.wake()
+    with server.database.read() as session:
+        submission = get_submission(session, viewer, submission_id)
+        return SubmissionAnswer.model_validate(submission_view(session, viewer, submission))
+
+
 @router.delete("/splits/{split}")
 def delete_split(server: ServerDep, viewer: ViewerDep, now: Now, split: str) -> SplitAnswer:
     """Delete a split with its board; it can be restored."""
@@ -123,24 +140,25 @@ def read_split_original(
 
 @router.get("/splits/{split}/images/{split_image_id}/display", response_class=Response, responses={**PIXELS})
 def read_split_display(
-    server: ServerDep, session: Reader, split: str, split_image_id: RowId, if_none_match: IfNoneMatch = None
+    server: ServerDep, split: str, split_image_id: RowId, if_none_match: IfNoneMatch = None
 ) -> Response:
     """Return an image in a form that a browser shows, pixels as stored."""
-    image = split_images.get_split_image(session, splits.get_split(session, split), split_image_id)
+    with server.database.read() as session:  # given back before the image is decoded
+        image = split_images.get_split_image(session, splits.get_split(session, split), split_image_id)
     return display_answer(server, image.image_sha256, if_none_match)
 
 
 @router.get("/splits/{split}/images/{split_image_id}/thumbnail", response_class=Response, responses={**PIXELS})
 def read_split_thumbnail(
     server: ServerDep,
-    session: Reader,
     split: str,
     split_image_id: RowId,
     size: ThumbnailSize = ThumbnailSize.MEDIUM,
     if_none_match: IfNoneMatch = None,
 ) -> Response:
     """Return a small picture whose longer side is ``size`` px."""
-    image = split_images.get_split_image(session, splits.get_split(session, split), split_image_id)
+    with server.database.read() as session:  # given back before the image is decoded
+        image = split_images.get_split_image(session, splits.get_split(session, split), split_image_id)
     return thumbnail_answer(server, image.image_sha256, size, if_none_match)
 
 
@@ -155,6 +173,8 @@ def read_truth_file(
 ) -> Response:
     """Return the frozen labels in one file for all images, with verdicts ``keep`` and ``ambiguous``.
 
+    JSON also has the candidates that were rejected with a reason, after the labels of an image.
+
     404 on hidden splits below maintainer.
     """
     found = splits.get_split(session, split)
@@ -165,5 +185,5 @@ def read_truth_file(
     headers = {"Content-Disposition": f'attachment; filename="{name}"', "X-Truth-Hash": chosen.truth_hash}
     if format == "npz":
         return Response(server.blobs.read(chosen.truth_sha256), media_type="application/x-npz", headers=headers)
-    content = write_json_set(read_truth(server.blobs, chosen).items())
+    content = write_json_set(read_truth_with_reasons(session, server.blobs, chosen).items())
     return Response(content, media_type="application/json", headers=headers)

@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 Verdict = Literal["keep", "reject", "ambiguous", "undecided"]
+RejectReason = Literal["car", "lane_marking", "curved", "shadow", "other"]
+Recall = Literal["complete", "nearly", "incomplete"]
 WorkState = Literal["queued", "running", "done", "failed", "cancelled"]
 ReviewState = Literal["open", "done", "discarded"]
 Origin = Literal["pipeline", "manual", "import"]

@@ -8,6 +8,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, StringConstraints
 
 from app.api.schemas.base import Answer, Given, ReviewCounts, VerdictCounts
+from app.api.schemas.people import Rules
 from app.api.schemas.runs import RunBrief
 
 DatasetName = Annotated[str, StringConstraints(min_length=1, max_length=200, strip_whitespace=True)]
@@ -34,6 +35,8 @@ class DatasetChange(Given):
     description: CardText | None = None
     licence: CardText | None = Field(default=None, description="Under which the images and labels are.")
     citation: CardText | None = Field(default=None, description="How to cite it; plain text or BibTeX.")
+    guidelines: CardText | None = Field(default=None, description="What annotators read; Markdown.")
+    rules: Rules | None = Field(default=None, description="All of them; `null` for the defaults.")
 
 
 class DatasetAnswer(Answer):

@@ -33,6 +33,7 @@ class ImageSummary(Answer):
     camera: CameraName
     source: str | None
     sequence: str | None
+    assignee: str | None = Field(description="Whose task it is.")
     status: ReviewState
     reason: str | None
     prelabel: PrelabelState
@@ -64,7 +65,9 @@ class ImageDetail(ImageSummary):
     dataset: DatasetName
     previous_id: int | None
     next_id: int | None
-    next_open_id: int | None
+    next_open_id: int | None = Field(
+        description="The next one to review: open, not another person's task, and no other person has it open."
+    )
     position: int
     total: int
     camera_estimate: dict[str, Any] | None
@@ -151,6 +154,7 @@ class Facets(Answer):
 
     sources: list[Facet]
     sequences: list[Facet]
+    assignees: list[Facet]
     cameras: list[CameraFacet]
     status: dict[str, int]
     prelabel: dict[str, int]

@@ -8,7 +8,7 @@ from uuid import UUID
 
 from pydantic import ConfigDict, Field
 
-from app.api.schemas.base import Answer, Given, Origin, ReviewState, RowId, Verdict, VerdictCounts
+from app.api.schemas.base import Answer, Given, Origin, Recall, RejectReason, ReviewState, RowId, Verdict, VerdictCounts
 
 
 class SegmentAnswer(Answer):
@@ -23,6 +23,7 @@ class SegmentAnswer(Answer):
     straightness: float | None = Field(description="Probability of being straight under the lens, 0 to 1.")
     straight: bool = Field(description="Whether it passes the straightness filter.")
     verdict: Verdict
+    reason: RejectReason | None = Field(description="Why it was rejected, where that was said.")
     origin: Origin
     box: tuple[float, float, float, float] = Field(description="x0, y0, x1, y1 in px.")
 
@@ -32,6 +33,7 @@ class SegmentsAnswer(Answer):
 
     image_id: int
     revision: int
+    last_decision_id: int = Field(description="The last decision that these verdicts follow; send it as `seen`.")
     width: int
     height: int
     segments: list[SegmentAnswer]
@@ -44,9 +46,15 @@ class DecisionGiven(Given):
     group_id: UUID
     segment_id: RowId
     verdict: Verdict
-    kind: Literal["judge", "undo", "redo"] = "judge"
+    kind: Literal["judge", "accept", "take_over", "undo", "redo"] = Field(
+        "judge", description="accept: of a suggestion; take_over: from a neighbouring frame of the sequence."
+    )
     target_group_id: UUID | None = Field(None, description="The group that an undo or redo is about.")
-    elapsed_ms: int | None = Field(None, ge=0, le=86_400_000, description="How long the person took.")
+    elapsed_ms: int | None = Field(
+        None, ge=0, le=86_400_000, description="How long the key press took; with one of its group."
+    )
+    reason: RejectReason | None = Field(None, description="Why it is rejected; for no other verdict.")
+    suggestion: float | None = Field(None, ge=0, le=1, description="The probability of keep that the person saw.")
 
 
 class DecisionsGiven(Given):
@@ -69,6 +77,20 @@ class DecisionsGiven(Given):
     )
 
     decisions: list[DecisionGiven] = Field(min_length=1, max_length=5000)
+    seen: int | None = Field(
+        None, ge=0, le=2**31 - 1, description="The last decision that you knew: later ones of others aren't overruled."
+    )
+
+
+class OtherVerdict(Answer):
+    """A verdict that another person gave meanwhile."""
+
+    segment_id: int
+    verdict: Verdict
+    reason: RejectReason | None
+    person: str | None
+    created_at: datetime
+    decision_id: int
 
 
 class DecisionsStored(Answer):
@@ -78,6 +100,8 @@ class DecisionsStored(Answer):
     repeated: int = Field(description="Known already by their client_id.")
     verdicts: VerdictCounts
     status: ReviewState
+    last_decision_id: int = Field(description="Send it as `seen` once you know `others`.")
+    others: list[OtherVerdict] = Field(description="Verdicts that others gave after what you had seen.")
 
 
 class DecisionAnswer(Answer):
@@ -87,11 +111,13 @@ class DecisionAnswer(Answer):
     segment_id: int
     verdict: Verdict
     previous: Verdict
-    kind: Literal["judge", "undo", "redo", "carry", "import"]
+    kind: Literal["judge", "undo", "redo", "carry", "import", "accept", "take_over"]
     client_id: str
     group_id: str
     target_group_id: str | None
     elapsed_ms: int | None
+    reason: RejectReason | None
+    suggestion: float | None
     person: str | None
     created_at: datetime
 
@@ -102,6 +128,15 @@ class History(Answer):
     decisions: list[DecisionAnswer]
 
 
+class NeighbourVerdict(Answer):
+    """What was decided on the same edge in the frame before or after."""
+
+    segment_id: int = Field(description="Of the image that was asked for.")
+    verdict: Verdict
+    reason: RejectReason | None
+    from_image_id: int
+
+
 class ReviewGiven(Given):
     """How far the people are with an image."""
 
@@ -110,6 +145,7 @@ class ReviewGiven(Given):
     status: ReviewState
     reason: str | None = Field(None, max_length=2000)
     allow_undecided: bool = Field(False, description="Done although candidates are left undecided.")
+    recall: Recall | None = Field(None, description="How much of what is straight the labels hold; with `done`.")
 
 
 class ReviewAnswer(Answer):
@@ -118,4 +154,5 @@ class ReviewAnswer(Answer):
     image_id: int
     status: ReviewState
     reason: str | None
+    recall: Recall | None
     updated_at: datetime

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from app.api.schemas.base import Answer, Given, RowId
+from app.api.schemas.base import Answer, Given, RejectReason, RowId
 
 Outcome = Literal["hit", "false_alarm", "miss", "ignored"]
 
@@ -57,6 +57,7 @@ class PredictionOutcome(Answer):
     offset: float | None
     angle: float | None
     error_type: str | None
+    rejected_as: RejectReason | None = Field(description="Why people rejected the line that a false positive is.")
 
 
 class ScoredImageAnswer(Answer):

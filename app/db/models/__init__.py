@@ -30,6 +30,7 @@ from app.db.models.review import (
     SecondDecision,
     SecondReview,
     SuggestionModel,
+    SuggestionTraining,
 )
 from app.db.models.runs import WORK_STATES, CameraEstimate, Run, RunImage
 from app.db.models.splits import SPLIT_VISIBILITIES, Split, SplitImage, SplitVersion
@@ -94,6 +95,7 @@ __all__ = [
     "SplitVersion",
     "Submission",
     "SuggestionModel",
+    "SuggestionTraining",
     "Token",
     "UtcDateTime",
     "alive_unique",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import Float, ForeignKey, Index, Integer, LargeBinary, String, Text
+from sqlalchemy import Float, ForeignKey, Index, Integer, LargeBinary, String, Text, text
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db.models.base import NEVER_REUSED, Base, one_of
@@ -31,6 +31,7 @@ class Segment(Base):
     __table_args__ = (
         one_of("origin", ORIGINS),
         Index("ix_segments_image_retired", "image_id", "retired_at"),
+        Index("ix_segments_image_score", "image_id", "score"),  # images are chosen by the scores in them
         NEVER_REUSED,
     )
 
@@ -87,7 +88,15 @@ class SegmentState(Base):
     """The current verdict of a segment, written in the transaction of its decision."""
 
     __tablename__ = "segment_states"
-    __table_args__ = (one_of("verdict", VERDICTS),)
+    __table_args__ = (
+        one_of("verdict", VERDICTS),
+        Index(
+            "ix_segment_states_reason_given",
+            "reason",
+            sqlite_where=text("reason IS NOT NULL"),
+            postgresql_where=text("reason IS NOT NULL"),
+        ),
+    )
 
     segment_id: Mapped[int] = mapped_column(ForeignKey("segments.id", ondelete="CASCADE"), primary_key=True)
     verdict: Mapped[str] = mapped_column(String(20))

@@ -59,6 +59,7 @@ class SecondReview(Base):
     image_id: Mapped[int] = mapped_column(ForeignKey("images.id", ondelete="CASCADE"), unique=True)
     person: Mapped[str | None] = mapped_column(String(200))
     status: Mapped[str] = mapped_column(String(20), default="open", index=True)
+    first_decision_id: Mapped[int | None]  # the image's last decision when it began: later ones aren't of the first
     created_at: Mapped[datetime]
     done_at: Mapped[datetime | None]
 
@@ -99,6 +100,7 @@ class Adjudication(Base):
     first: Mapped[str] = mapped_column(String(20))
     second: Mapped[str] = mapped_column(String(20))
     verdict: Mapped[str] = mapped_column(String(20))
+    decision_id: Mapped[int] = mapped_column(ForeignKey("decisions.id", ondelete="CASCADE"), index=True)
     person: Mapped[str | None] = mapped_column(String(200))
     created_at: Mapped[datetime]
 
@@ -130,3 +132,14 @@ class SuggestionModel(Base):
     parameters: Mapped[dict[str, Any]] = mapped_column(deferred=True)
     report: Mapped[dict[str, Any]]
     created_at: Mapped[datetime]
+
+
+class SuggestionTraining(Base):
+    """What a dataset's next training waits for, and why its latest one failed; no row while neither is so."""
+
+    __tablename__ = "suggestion_trainings"
+
+    dataset_id: Mapped[int] = mapped_column(ForeignKey("datasets.id", ondelete="CASCADE"), primary_key=True)
+    asked_at: Mapped[datetime | None]  # somebody wants it now, however few decisions are new
+    error: Mapped[dict[str, Any] | None]
+    failed_decision_id: Mapped[int | None]  # it isn't tried again before a decision after this one

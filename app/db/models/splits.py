@@ -8,7 +8,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Float, ForeignKey, Index, String, Text, UniqueConstraint
+from sqlalchemy import Float, ForeignKey, Index, LargeBinary, String, Text, UniqueConstraint
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db.models.base import NEVER_REUSED, Base, Name, one_of
@@ -81,3 +81,4 @@ class SplitImage(Base):
     camera: Mapped[str | None] = mapped_column(String(300))
     reference: Mapped[dict[str, Any] | None]  # the camera's, as it was then
     n_labels: Mapped[int]
+    rejected: Mapped[bytes | None] = mapped_column(LargeBinary, deferred=True)  # candidates rejected with a reason, npz

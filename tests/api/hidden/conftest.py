@@ -25,8 +25,8 @@ from app.services.access import ROLES
 from app.services.tokens import create_token
 from app.settings import Settings
 
-MARKS = (412.4567, 137.8142, 268.6393, 91.3379)
-"""x and y of the first kept and of the ambiguous label; nothing else here has such coordinates."""
+MARKS = (412.4567, 137.8142, 268.6393, 91.3379, 337.2718, 173.5429)
+"""x and y of the first kept label, the ambiguous one and a line rejected with a reason; nothing else here has these."""
 
 LABELS = 223
 """Number of kept labels, which no other count here comes to."""
@@ -51,13 +51,14 @@ def other_line(row: int) -> list[list[float]]:
 
 def label_file(*, marked: bool) -> bytes:
     """Labels as a file: with the marks, or harmless ones."""
-    x, y, u, v = MARKS if marked else (20.0, 30.0, 40.0, 50.0)
+    x, y, u, v, s, t = MARKS if marked else (20.0, 30.0, 40.0, 50.0, 60.0, 70.0)
     count = LABELS if marked else 3
     lines = [
         [[x, y], [x + 60, y + 1]],
         *([[[5 + row, 5 + row / 2], [50 + row, 6 + row / 2]] for row in range(count - 1)]),
     ]
     segments = [{"points": points, "verdict": "keep"} for points in lines]
+    segments.append({"points": [[s, t], [s + 60, t + 1]], "verdict": "reject", "reason": "shadow"})
     segments.append({"points": [[u, v], [u + 60, v + 1]], "verdict": "ambiguous"})
     return json.dumps({"segments": segments}).encode()
 
@@ -165,6 +166,10 @@ def fill(world: World) -> None:
     split_images = [
         image["id"] for slug in ("hidden", "open") for image in world.made("GET", f"/api/splits/{slug}/images")["items"]
     ]
+    # by the owner: the maintainer, who brought the labels, may not be the second person
+    second_reviews = [
+        world.made("POST", f"/api/images/{image}/second-review", role="owner")["id"] for image in (secret[0], street[0])
+    ]
     submissions = [submit(world, "hidden", "first"), submit(world, "hidden", "second"), submit(world, "open", "first")]
     world.ids = {
         "slug": ["secret", "copy", "street"],
@@ -173,6 +178,7 @@ def fill(world: World) -> None:
         "image_id": [*secret, *copy, *street],
         "segment_id": [segments[0]["id"], segments[-1]["id"]],
         "run_id": [run],
+        "second_review_id": second_reviews,
         "camera_id": cameras,
         "camera": cameras,
         "split_image_id": split_images,

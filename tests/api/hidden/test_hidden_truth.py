@@ -18,8 +18,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.xdist_group("hidden truth")
-
 BELOW = ("reader", "submitter", "annotator")
 CONTROL = (
     "/api/images/{image_id}/segments",
@@ -172,6 +170,7 @@ def test_what_is_concealed_is_not_there(role: str, world: Any) -> None:
         "image_id": world.ids["image_id"][:3],
         **{name: world.ids[name] for name in ("segment_id", "run_id")},
         "camera_id": world.ids["camera_id"][:1],
+        "second_review_id": world.ids["second_review_id"][:1],
     }
     wrong: list[str] = []
     for method, template, operation in world.operations():
@@ -224,6 +223,15 @@ def test_the_pixels_of_a_hidden_split_are_there_for_detectors(world: Any) -> Non
             assert world.ask("reader", "GET", image[kind]).status_code == 200
     for kind in PIXELS:
         assert world.ask("reader", "GET", f"/api/images/{world.ids['image_id'][0]}/{kind}").status_code == 200
+
+
+@pytest.mark.parametrize("role", BELOW)
+def test_the_lens_of_a_hidden_image_is_not_in_its_pixels(role: str, world: Any) -> None:
+    for image_id in world.ids["image_id"][:3]:
+        display = f"/api/images/{image_id}/display"
+        assert world.ask(role, "GET", f"{display}?view=clahe").status_code == 200
+        assert world.ask(role, "GET", f"{display}?view=undistorted").status_code == 404
+        assert world.ask("maintainer", "GET", f"{display}?view=undistorted").status_code in (200, 409)
 
 
 @pytest.mark.parametrize("written", ["{}%0A", "%20{}", "+{}", "0{}", "{}.0", "１"])

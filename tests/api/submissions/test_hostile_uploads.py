@@ -20,8 +20,6 @@ from sqlalchemy import func, select
 from app.db.models import Blob, Method, Submission
 from app.settings import Settings
 
-pytestmark = pytest.mark.xdist_group("hostile uploads")
-
 CANARY = Path("/tmp/clearlines-canary-of-a-pickle")
 
 

@@ -11,8 +11,6 @@ from fastapi.testclient import TestClient
 
 from app.services.tokens import create_token
 
-pytestmark = pytest.mark.xdist_group("rights")
-
 
 @pytest.fixture(scope="module")
 def sign(client: TestClient) -> Callable[[str, str], dict[str, str]]:

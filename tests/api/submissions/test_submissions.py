@@ -6,13 +6,12 @@ import csv
 import io
 import struct
 from typing import Any
+from uuid import uuid4
 
 import cv2
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
-
-pytestmark = pytest.mark.xdist_group("submissions")
 
 
 def value(done: dict[str, Any], metric: str) -> float | None:
@@ -64,6 +63,29 @@ def test_one_image_shows_why(field, half_results, client: TestClient) -> None:
 
     matches = client.get(f"{address}/matches").json()
     assert [match["label"] for match in matches["images"][0]["matches"]] == [0, 1]
+
+
+def test_a_wrong_line_that_people_rejected_says_why(field, half_results, client: TestClient) -> None:
+    image = field.images[0]
+    name = client.get(f"/api/images/{image}").json()["name"]
+    segment = client.get(f"/api/images/{image}/segments").json()["segments"][1]["id"]
+    decision = {"client_id": str(uuid4()), "group_id": str(uuid4()), "segment_id": segment, "verdict": "reject"}
+    given = {"decisions": [{**decision, "reason": "lane_marking"}]}
+    assert client.post(f"/api/images/{image}/decisions", json=given).status_code == 200
+    assert client.post(f"/api/splits/{field.split}/versions").status_code == 201
+
+    done = field.scored(half_results)
+    (marking,) = done["strata"]["reason"]
+    share = {"value": 1.0, "low": 1.0, "high": 1.0}
+    assert marking == {"name": "lane_marking", "tp": 0, "fp": 1, "fn": 0, "candidates": 1, "share": share}
+    address = f"/api/submissions/{done['id']}/images"
+    (row,) = client.get(address, params={"search": name}).json()["items"]
+    found = client.get(f"{address}/{row['image_id']}").json()["predictions"]
+    assert [each["rejected_as"] for each in found] == [None, "lane_marking", None]
+
+    truth = client.get(f"/api/splits/{field.split}/truth?format=json").json()["images"]
+    assert [each.get("reason") for each in truth[name]["segments"]] == [None, None, None, "lane_marking"]
+    assert {each["verdict"] for other in truth for each in truth[other]["segments"]} == {"keep", "reject"}
 
 
 def test_false_positives_go_to_the_labellers_once(field, half_results, client: TestClient) -> None:

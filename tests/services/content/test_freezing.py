@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 from datetime import datetime, timedelta
+from uuid import uuid4
 
 import numpy as np
 import pytest
 
+from app.db.models import REASONS as STORED_REASONS
 from app.db.models import Blob, Dataset, Image, Method, Split, SplitImage, SplitVersion, Submission
 from app.errors import NotFound
+from app.evaluation.rejected_lines import REASONS, RejectedLines
+from app.formats.labelled import REASONS as WRITTEN_REASONS
 from app.formats.labelled import LabelledSegments
 from app.services.access import Viewer
 from app.services.blobs import keep_bytes
 from app.services.concealing import require_details, require_visible, visible_datasets
 from app.services.dataset_overviews import list_datasets
 from app.services.datasets import delete_dataset
+from app.services.deciding import decide
+from app.services.decision_batch import Wish
 from app.services.freezing import NotFrozen
+from app.services.labelling import segments_of_image
 from app.services.purging import purge
 from app.services.reviews import set_review
+from app.services.scoring_inputs import images_to_score
+from app.services.split_overviews import labels_since
 from app.services.splits import SplitPlan, create_split, current_version, freeze_again, get_split
-from app.services.truths import ground_truths, read_truth, truth_hash
+from app.services.truths import ground_truths, read_truth, read_truth_with_reasons, truth_hash
 from app.vision.segments import Segments
 
 GRACE = timedelta(days=7)
@@ -87,6 +96,50 @@ def test_the_hash_tells_verdicts_points_and_names_apart() -> None:
     assert len(set(hashes)) == len(hashes)
     assert truth_hash({"a": LabelledSegments(turned, verdicts=("keep", "keep"))}, 0.0) == hashes[6]
     assert truth_hash({"a": LabelledSegments(turned, verdicts=("ambiguous", "keep"))}, 0.0) == hashes[7]
+
+
+def test_candidates_rejected_with_a_reason_go_along(place) -> None:
+    slug = place.dataset()
+    image = labelled_image(place, slug, "a", ["keep", "reject", "reject"])
+    labelled_image(place, slug, "b", ["keep", "reject"])
+    split = freeze(place, slug)
+    with place.database.read() as session:
+        assert [row.rejected for row in session.query(SplitImage)] == [None, None]
+        plain = current_version(session, get_split(session, split))
+        labels = read_truth(place.blobs, plain)
+        candidates = segments_of_image(session, image).segments
+        assert plain.truth_hash == truth_hash(labels, 0.0) == truth_hash(labels, 0.0, {})
+    shadow = Wish(str(uuid4()), str(uuid4()), candidates[2].id, "reject", reason="shadow")
+    with place.database.write() as session:
+        decide(session, image, [shadow], "ada", place.now)
+    with place.database.read() as session:
+        assert labels_since(session, place.blobs, get_split(session, split)).changed == ("a",)
+    with place.database.write() as session:
+        freeze_again(session, place.blobs, split, None, place.now)
+    with place.database.read() as session:
+        assert labels_since(session, place.blobs, get_split(session, split)).changed == ()
+        version = current_version(session, get_split(session, split))
+        assert (version.number, version.n_labels) == (2, 2)
+        again = read_truth(place.blobs, version)
+        assert {name: len(part) for name, part in again.items()} == {"a": 1, "b": 1}
+        first, second = session.query(SplitImage).filter_by(version_id=version.id).order_by(SplitImage.ordinal)
+        assert second.rejected is None
+        rejected = RejectedLines.from_npz(first.rejected)
+        assert version.truth_hash == truth_hash(labels, 0.0, {"a": rejected}) != plain.truth_hash
+        (scored,) = images_to_score(session, [first.id], again, {}, 0.0)
+        assert scored.rejected is not None
+        assert scored.rejected.reasons.tolist() == [REASONS.index("shadow")]
+        told = read_truth_with_reasons(session, place.blobs, version)
+        assert {name: part.verdicts for name, part in told.items()} == {"a": ("keep", "reject"), "b": ("keep",)}
+        assert told["a"].reasons == (None, "shadow")
+        assert np.array_equal(told["a"].segments[1], rejected.segments[0])
+        assert read_truth_with_reasons(session, place.blobs, plain) == labels
+    assert [REASONS[reason] for reason in rejected.reasons] == ["shadow"]
+    assert rejected.segments.boxes()[0].tolist() == pytest.approx(candidates[2].box)
+
+
+def test_the_reasons_that_are_scored_are_those_that_people_give() -> None:
+    assert REASONS == STORED_REASONS == WRITTEN_REASONS
 
 
 def test_the_purge_leaves_what_splits_and_submissions_name(place) -> None:

@@ -217,7 +217,7 @@ def test_neighbours_by_name(place) -> None:
     with place.database.write() as session:
         delete_images(session, named(session, slug), [deleted], place.now, grace=GRACE)
     with place.database.read() as session:
-        beside = [neighbours(session, get_image(session, image_id)) for image_id in (upper, one, ten, two)]
+        beside = [neighbours(session, get_image(session, image_id), place.now) for image_id in (upper, one, ten, two)]
     assert [(place.previous_id, place.next_id) for place in beside] == [
         (None, one),
         (upper, ten),
@@ -233,8 +233,8 @@ def test_next_open_is_never_the_image_itself(place) -> None:
     first, second = place.images(slug, "a", "b")
     place.label(second, ["keep"])
     with place.database.read() as session:
-        assert neighbours(session, get_image(session, first)).next_open_id is None
-        assert neighbours(session, get_image(session, second)).next_open_id == first
+        assert neighbours(session, get_image(session, first), place.now).next_open_id is None
+        assert neighbours(session, get_image(session, second), place.now).next_open_id == first
 
 
 def test_detail(place) -> None:
@@ -244,7 +244,7 @@ def test_detail(place) -> None:
     with place.database.read() as session:
         place.estimate(run, get_image(session, first).camera_id, -0.25)
     with place.database.read() as session:
-        detail = image_detail(session, get_image(session, first))
+        detail = image_detail(session, get_image(session, first), place.now)
     assert (detail.dataset.slug, detail.name, detail.next_id, detail.position, detail.total) == (
         slug,
         "a",

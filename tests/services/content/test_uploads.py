@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from app.db.models import Camera, Event
+from app.db.models import Camera, Decision, Event, SegmentState
 from app.errors import InvalidInput
 from app.formats.label_npy import write_label_npy
 from app.services.exporting import write_export
@@ -144,6 +144,22 @@ def test_labels_may_come_after_their_images(place, png, segments) -> None:
     assert (report.labels, [file.name for file in report.failed]) == (1, ["set/labels/a/9_edge_segments_filtered.npy"])
     again = import_upload(importer, files_of({**labels, "set/images/a/1.png": png(1)}))
     assert (again.labels, len(again.existing)) == (0, 1)
+
+
+def test_labels_bring_the_reasons_of_rejections(place, png) -> None:
+    lines = [
+        {"points": [[1, 1], [40, 1]], "verdict": "reject", "reason": "car"},
+        {"points": [[1, 9], [40, 9]], "verdict": "keep"},
+        {"points": [[1, 20], [40, 20]], "verdict": "reject"},
+    ]
+    labels = json.dumps({"segments": lines}).encode()
+    report = import_upload(place.importer(place.dataset()), files_of({"images/a.png": png(1), "labels/a.json": labels}))
+    assert (names(report), report.failed, report.labels) == (["a"], (), 1)
+    with place.database.read() as session:
+        decided = session.query(Decision).order_by(Decision.id)
+        assert [(row.verdict, row.reason) for row in decided] == [("reject", "car"), ("keep", None), ("reject", None)]
+        states = session.query(SegmentState).order_by(SegmentState.segment_id)
+        assert [(row.verdict, row.reason) for row in states] == [("reject", "car"), ("keep", None), ("reject", None)]
 
 
 def test_an_export_comes_back_as_it_was(place, png) -> None:

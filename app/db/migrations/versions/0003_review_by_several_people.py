@@ -43,6 +43,17 @@ def upgrade() -> None:
     )
     op.create_index("ix_suggestion_models_dataset_id", "suggestion_models", ["dataset_id"], unique=False)
     op.create_table(
+        "suggestion_trainings",
+        sa.Column("dataset_id", sa.Integer(), nullable=False),
+        sa.Column("asked_at", sa.DateTime(timezone=True), nullable=True),
+        sa.Column("error", sa.JSON(none_as_null=True), nullable=True),
+        sa.Column("failed_decision_id", sa.Integer(), nullable=True),
+        sa.ForeignKeyConstraint(
+            ["dataset_id"], ["datasets.id"], name="fk_suggestion_trainings_dataset_id_datasets", ondelete="CASCADE"
+        ),
+        sa.PrimaryKeyConstraint("dataset_id", name="pk_suggestion_trainings"),
+    )
+    op.create_table(
         "edits",
         sa.Column("id", sa.Integer(), nullable=False),
         sa.Column("image_id", sa.Integer(), nullable=False),
@@ -90,6 +101,7 @@ def upgrade() -> None:
         sa.Column("image_id", sa.Integer(), nullable=False),
         sa.Column("person", sa.String(length=200), nullable=True),
         sa.Column("status", sa.String(length=20), nullable=False),
+        sa.Column("first_decision_id", sa.Integer(), nullable=True),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
         sa.Column("done_at", sa.DateTime(timezone=True), nullable=True),
         sa.CheckConstraint("status IN ('open', 'done')", name="ck_second_reviews_status"),
@@ -108,9 +120,13 @@ def upgrade() -> None:
         sa.Column("first", sa.String(length=20), nullable=False),
         sa.Column("second", sa.String(length=20), nullable=False),
         sa.Column("verdict", sa.String(length=20), nullable=False),
+        sa.Column("decision_id", sa.Integer(), nullable=False),
         sa.Column("person", sa.String(length=200), nullable=True),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
         sa.CheckConstraint("verdict IN ('keep', 'reject', 'ambiguous', 'undecided')", name="ck_adjudications_verdict"),
+        sa.ForeignKeyConstraint(
+            ["decision_id"], ["decisions.id"], name="fk_adjudications_decision_id_decisions", ondelete="CASCADE"
+        ),
         sa.ForeignKeyConstraint(
             ["second_review_id"],
             ["second_reviews.id"],
@@ -122,6 +138,7 @@ def upgrade() -> None:
         ),
         sa.PrimaryKeyConstraint("second_review_id", "segment_id", name="pk_adjudications"),
     )
+    op.create_index("ix_adjudications_decision_id", "adjudications", ["decision_id"], unique=False)
     op.create_index("ix_adjudications_segment_id", "adjudications", ["segment_id"], unique=False)
     op.create_table(
         "second_decisions",
@@ -164,14 +181,23 @@ def upgrade() -> None:
     op.create_index("ix_images_dataset_id_assignee", "images", ["dataset_id", "assignee"], unique=False)
     op.add_column("reviews", sa.Column("recall", sa.String(length=20), nullable=True))
     op.add_column("segment_states", sa.Column("reason", sa.String(length=40), nullable=True))
+    op.add_column("split_images", sa.Column("rejected", sa.LargeBinary(), nullable=True))
+    op.create_index("ix_segments_image_score", "segments", ["image_id", "score"], unique=False)
+    given = sa.text("reason IS NOT NULL")
+    op.create_index(
+        "ix_segment_states_reason_given", "segment_states", ["reason"], sqlite_where=given, postgresql_where=given
+    )
 
 
 def downgrade() -> None:
     # a kind that the older version doesn't know is a judgement to it
     op.execute("UPDATE decisions SET kind = 'judge' WHERE kind IN ('accept', 'take_over')")
     set_decisions(KINDS, more=False)
+    op.drop_index("ix_segment_states_reason_given", "segment_states")
+    op.drop_index("ix_segments_image_score", "segments")
     op.drop_index("ix_images_dataset_id_assignee", "images")
     for table, column in (
+        ("split_images", "rejected"),
         ("segment_states", "reason"),
         ("reviews", "recall"),
         ("images", "assignee"),
@@ -186,6 +212,7 @@ def downgrade() -> None:
         "leases",
         "image_features",
         "edits",
+        "suggestion_trainings",
         "suggestion_models",
     ):
         op.drop_table(table)

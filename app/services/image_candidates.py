@@ -1,0 +1,51 @@
+"""Choosing images by what is known of their candidates: verdicts, scores, and who decided."""
+
+from __future__ import annotations
+
+from sqlalchemy import ColumnElement, exists
+
+from app.db.models import VERDICTS, Decision, Image, Segment
+from app.errors import InvalidInput
+from app.services.candidates import is_current
+from app.services.people import WORK
+
+
+def candidate_conditions(
+    person: str | None, verdict: str | None, min_score: float | None, max_score: float | None
+) -> list[ColumnElement[bool]]:
+    """Return conditions on ``Image``; a bound that is ``None`` is none.
+
+    Args:
+        person: Who decided on at least one of its candidates.
+        verdict: That at least one of its candidates has.
+        min_score: With a candidate of at least this score.
+        max_score: With a candidate of at most this score.
+
+    Raises:
+        InvalidInput: On an unknown verdict.
+    """
+    conditions: list[ColumnElement[bool]] = []
+    if person is not None:
+        decided = exists().where(Decision.image_id == Image.id, Decision.person == person, Decision.kind.in_(WORK))
+        conditions.append(decided.correlate(Image))
+    if verdict is not None:
+        conditions.append(_number_of(verdict) > 0)
+    if min_score is not None or max_score is not None:
+        bounds = [
+            *([] if min_score is None else [Segment.score >= min_score]),
+            *([] if max_score is None else [Segment.score <= max_score]),
+        ]
+        conditions.append(exists().where(Segment.image_id == Image.id, *bounds, is_current()).correlate(Image))
+    return conditions
+
+
+def _number_of(verdict: str) -> ColumnElement[int]:
+    numbers: dict[str, ColumnElement[int]] = {
+        "keep": Image.n_keep.expression,
+        "reject": Image.n_reject.expression,
+        "ambiguous": Image.n_ambiguous.expression,
+        "undecided": Image.n_candidates - Image.n_keep - Image.n_reject - Image.n_ambiguous,
+    }
+    if verdict not in numbers:
+        raise InvalidInput(f"{verdict!r:.60} is no verdict", where="verdict", expected=", ".join(VERDICTS))
+    return numbers[verdict]

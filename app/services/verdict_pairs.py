@@ -1,0 +1,98 @@
+"""First and second verdict of each candidate that two people judged without knowing of one another.
+
+The first verdict is the one that stood when the second review began, the second one the one that stood when it was
+first done: what was changed later, by an adjudication or by who had seen the differences, was no longer independent.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sqlalchemy import ColumnElement, Select, Subquery, and_, func, or_, select
+from sqlalchemy.orm import Session, aliased
+
+from app.db.models import Dataset, Decision, Image, SecondDecision, SecondReview, Segment
+
+JUDGED = ("keep", "reject", "ambiguous")
+"""Verdicts that can agree; who left a candidate undecided said nothing."""
+
+First = aliased(Decision, name="first_decision")
+Second = aliased(SecondDecision, name="second_decision")
+
+
+@dataclass(frozen=True)
+class VerdictPair:
+    """Two verdicts on one candidate.
+
+    Attributes:
+        length: Arc length, px.
+        first: The first person's verdict.
+        second: The second person's.
+    """
+
+    second_review_id: int
+    image_id: int
+    image: str
+    segment_id: int
+    length: float
+    first: str
+    first_person: str | None
+    second: str
+    second_person: str | None
+
+
+def select_pairs(dataset: Dataset) -> Select[int, int, str, int, float, str, str | None, str, str | None]:
+    """Select the columns of ``VerdictPair`` for all candidates that both judged in second reviews that are done."""
+    of_dataset = (Image.dataset_id == dataset.id) & Image.deleted_at.is_(None) & (SecondReview.status == "done")
+    first, second = _latest_first(of_dataset), _latest_second(of_dataset)
+    return (
+        select(
+            SecondReview.id.label("second_review_id"),
+            Image.id.label("image_id"),
+            Image.name.label("image"),
+            Segment.id.label("segment_id"),
+            Segment.length,
+            First.verdict.label("first"),
+            First.person.label("first_person"),
+            Second.verdict.label("second"),
+            SecondReview.person.label("second_person"),
+        )
+        .select_from(second)
+        .join(Second, Second.id == second.c.id)
+        .join(SecondReview, SecondReview.id == Second.second_review_id)
+        .join(Segment, Segment.id == Second.segment_id)
+        .join(Image, Image.id == SecondReview.image_id)
+        .join(first, first.c.segment_id == Segment.id)
+        .join(First, First.id == first.c.id)
+        .where(First.verdict.in_(JUDGED), Second.verdict.in_(JUDGED))
+    )
+
+
+def verdict_pairs(session: Session, dataset: Dataset) -> list[VerdictPair]:
+    """Return the pairs of a dataset, by image and candidate."""
+    rows = session.execute(select_pairs(dataset).order_by(Image.name, Segment.id))
+    return [VerdictPair(*row) for row in rows]
+
+
+def _latest_first(of_dataset: ColumnElement[bool]) -> Subquery:
+    # a run's carrying repeats what was said before it
+    before = or_(Decision.id <= SecondReview.first_decision_id, Decision.kind == "carry")
+    return (
+        select(Decision.segment_id, func.max(Decision.id).label("id"))
+        .join(SecondReview, SecondReview.image_id == Decision.image_id)
+        .join(Image, Image.id == Decision.image_id)
+        .where(and_(of_dataset, before))
+        .group_by(Decision.segment_id)
+        .subquery("latest_first")
+    )
+
+
+def _latest_second(of_dataset: ColumnElement[bool]) -> Subquery:
+    return (
+        select(func.max(SecondDecision.id).label("id"))
+        .join(SecondReview, SecondReview.id == SecondDecision.second_review_id)
+        .join(Image, Image.id == SecondReview.image_id)
+        .where(of_dataset, SecondDecision.created_at <= SecondReview.done_at)
+        .group_by(SecondDecision.second_review_id, SecondDecision.segment_id)
+        .subquery("latest_second")
+    )

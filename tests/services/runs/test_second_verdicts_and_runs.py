@@ -1,0 +1,32 @@
+"""A second review's verdicts outlive the run whose candidates they are on, as first ones do."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from uuid import uuid4
+
+from app.services.decision_batch import Wish
+from app.services.purging import purge
+from app.services.reviews import set_review
+from app.services.runs import delete_run
+from app.services.second_reviews import own_second_review, start_second_review
+from app.services.second_verdicts import decide_second, second_history
+from app.storage import BlobStore
+
+
+def test_a_purged_run_takes_no_second_verdict_along(bench, tmp_path) -> None:
+    run = bench.detect(20, 40)
+    image = bench.images[0]
+    left = bench.at(image, 20)
+    bench.decide(image, {bench.at(image, 40): "keep"})
+    with bench.database.write() as session:
+        set_review(session, image, "done", now=bench.now, allow_undecided=True, person="owner")
+        number = start_second_review(session, image, "Jon", bench.now).id
+        review, _ = own_second_review(session, number, "Jon", lock=True)
+        decide_second(session, review, [Wish(str(uuid4()), str(uuid4()), left, "reject")], "Jon", bench.now)
+        delete_run(session, run, bench.now, grace=timedelta())
+    assert purge(bench.database, BlobStore(tmp_path), bench.now, grace=timedelta()).runs == 1
+    with bench.database.read() as session:
+        review, _ = own_second_review(session, number, "Jon")
+        assert [(row.segment_id, row.verdict) for row in second_history(session, review)] == [(left, "reject")]
+    assert [entry.box[1] for entry in bench.segments(image)] == [40]
