@@ -18,6 +18,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from app.commands.exchange import import_images
+from app.commands.token import make_token
+from app.settings import Settings
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 CLEARLINES = Path(sys.executable).with_name("clearlines")
 
@@ -132,19 +136,40 @@ def page(browser: Browser) -> Iterator[Page]:
 
 
 @pytest.fixture(scope="session")
-def label_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    """A server for the tests of the label page, each of which imports a dataset of its own."""
-    server = launch(tmp_path_factory.mktemp("label") / "data")
+def shared_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """A server for all tests that need none of their own; each file works in datasets of names that no other has."""
+    server = launch(tmp_path_factory.mktemp("shared") / "data")
     yield server
     server.stop()
 
 
 @pytest.fixture(scope="session")
+def label_server(shared_server: RunningServer) -> RunningServer:
+    """The same, by the name that the tests of the label page know."""
+    return shared_server
+
+
+@pytest.fixture(scope="session")
+def server(shared_server: RunningServer) -> RunningServer:
+    """The same; a file may put a server with its own datasets in its place."""
+    return shared_server
+
+
+@pytest.fixture(scope="session")
 def import_dataset() -> Callable[[RunningServer, Path, str], None]:
-    """Return what brings a folder into a running server's database."""
+    """Return what brings a folder into a running server's database, as ``clearlines import`` does beside it."""
 
     def import_dataset(server: RunningServer, folder: Path, name: str) -> None:
-        command = [CLEARLINES, "import", folder, "--dataset", name, "--data", server.data]
-        subprocess.run(command, check=True, capture_output=True)
+        import_images(Settings(data_dir=server.data), folder, name)
 
     return import_dataset
+
+
+@pytest.fixture(scope="session")
+def create_token() -> Callable[[RunningServer, str, str], str]:
+    """Return what makes a token for a running server, as ``clearlines token create`` does beside it."""
+
+    def create_token(server: RunningServer, name: str, role: str) -> str:
+        return make_token(Settings(data_dir=server.data), name, role).text
+
+    return create_token

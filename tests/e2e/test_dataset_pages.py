@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +11,6 @@ import cv2
 import numpy as np
 import pytest
 from playwright.sync_api import Locator, Page, expect
-
-pytestmark = pytest.mark.xdist_group("pages")
 
 
 def draw_lines(path: Path, seed: int) -> Path:
@@ -23,13 +21,6 @@ def draw_lines(path: Path, seed: int) -> Path:
         cv2.rectangle(image, (x, 20), (x + 40, 220), int(rng.integers(150, 255)), -1, cv2.LINE_AA)
     cv2.imwrite(str(path), image)
     return path
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory: pytest.TempPathFactory, start_server: Callable[..., Any]) -> Iterator[Any]:
-    server = start_server(tmp_path_factory.mktemp("pages") / "data")
-    yield server
-    server.stop()
 
 
 def wait_for(page: Page, condition: Callable[[], bool]) -> None:
@@ -56,7 +47,8 @@ def tiles(page: Page) -> Locator:
     return page.get_by_role("list", name="Images").get_by_role("link")
 
 
-def test_a_newcomer_gets_from_nothing_to_candidates(page: Page, server: Any, tmp_path: Path) -> None:
+def test_a_newcomer_gets_from_nothing_to_candidates(page: Page, serve: Callable[..., Any], tmp_path: Path) -> None:
+    server = serve()
     page.goto(server.address)
     expect(page.get_by_text("Drop images, a folder or a zip here")).to_be_visible()
     make_dataset(page, server, "Downtown")

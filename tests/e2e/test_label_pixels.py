@@ -16,7 +16,6 @@ from playwright.sync_api import Page
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
-pytestmark = pytest.mark.xdist_group("label page")
 WIDTH, HEIGHT = 640, 480
 FIT_MARGIN = 12
 ZOOM_STEP = 1.4
@@ -106,6 +105,7 @@ def test_a_line_lies_on_the_middle_of_its_pixels(page: Page, server: Any, zooms:
         # So far in, the bright pixels beside the line are seen themselves: it runs through their middle.
         bright = row.min(axis=-1) > 200
         edges = np.nonzero(bright)[0]
+        edges = edges[np.abs(edges - expected_x) < 3 * scale]  # the tool bar is bright too
         assert edges.max() - edges.min() + 1 == pytest.approx(scale, abs=1.5)
         assert (edges.min() + edges.max() + 1) / 2 == pytest.approx(middle(is_line(row)), abs=0.75)
 

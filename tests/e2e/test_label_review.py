@@ -17,7 +17,6 @@ from playwright.sync_api import Page, expect
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
-pytestmark = pytest.mark.xdist_group("label page")
 WIDTH, HEIGHT = 640, 480
 GREY = 110
 # In the order of review. The first two are 3 px apart.

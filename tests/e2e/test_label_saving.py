@@ -13,7 +13,6 @@ from playwright.sync_api import Page, expect
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
-pytestmark = pytest.mark.xdist_group("label page")
 DECISIONS = "**/api/images/*/decisions"
 IMAGES = ("reload", "memory")
 

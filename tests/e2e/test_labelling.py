@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import time
 import urllib.request
 import zipfile
 from collections.abc import Callable
@@ -15,8 +16,6 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-pytestmark = pytest.mark.xdist_group("pages")
-
 
 def draw_lines(path: Path, seed: int) -> None:
     """Write a picture with a few long edges."""
@@ -27,23 +26,38 @@ def draw_lines(path: Path, seed: int) -> None:
     cv2.imwrite(str(path), image)
 
 
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    folder = tmp_path / "street"
+def draw_street(parent: Path) -> Path:
+    """A folder of two pictures."""
+    folder = parent / "street"
     folder.mkdir()
     for seed, name in enumerate(("one", "two")):
         draw_lines(folder / f"{name}.png", seed)
     return folder
 
 
-def wait_for_run(page: Page, server: Any, slug: str) -> list[dict[str, Any]]:
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return draw_street(tmp_path)
+
+
+def wait_for_run(server: Any, slug: str) -> list[dict[str, Any]]:
     """Wait until every image of the dataset has candidates; return the images."""
     for _ in range(600):
         run = server.ask(f"/datasets/{slug}")["latest_run"]
         if run and run["status"] == "done":
             return server.ask(f"/datasets/{slug}/images")["items"]
-        page.wait_for_timeout(100)
+        time.sleep(0.1)
     pytest.fail("the run didn't finish")
+
+
+@pytest.fixture(scope="module")
+def images(
+    server: Any, import_dataset: Callable[..., None], tmp_path_factory: pytest.TempPathFactory
+) -> list[dict[str, Any]]:
+    """Two pre-labelled images."""
+    import_dataset(server, draw_street(tmp_path_factory.mktemp("labelling")), "By keys")
+    server.ask("/datasets/by-keys/runs", {})
+    return wait_for_run(server, "by-keys")
 
 
 def judged(page: Page) -> str:
@@ -54,7 +68,7 @@ def test_two_images_are_labelled_by_keys_alone_and_exported(
     page: Page, serve: Callable[..., Any], folder: Path
 ) -> None:
     server = serve(str(folder))
-    images = wait_for_run(page, server, "street")
+    images = wait_for_run(server, "street")
     total = images[0]["candidates"]
     assert total >= 4
     page.goto(f"{server.address}/datasets/street/images/{images[0]['id']}")
@@ -128,7 +142,7 @@ def test_decisions_made_while_the_server_is_dead_arrive_once_it_is_back(
     page: Page, serve: Callable[..., Any], folder: Path
 ) -> None:
     server = serve(str(folder))
-    image = wait_for_run(page, server, "street")[0]
+    image = wait_for_run(server, "street")[0]
     page.goto(f"{server.address}/datasets/street/images/{image['id']}")
     progress = page.get_by_label("Progress").locator(".panel-progress")
     expect(progress).to_have_text(f"0 of {image['candidates']} judged")
@@ -149,13 +163,12 @@ def test_decisions_made_while_the_server_is_dead_arrive_once_it_is_back(
 
 
 def test_a_click_selects_and_the_address_leads_back_to_the_candidate(
-    page: Page, serve: Callable[..., Any], folder: Path
+    page: Page, server: Any, images: list[dict[str, Any]]
 ) -> None:
-    server = serve(str(folder))
-    image = wait_for_run(page, server, "street")[0]
+    image = images[0]
     segments = server.ask(f"/images/{image['id']}/segments")["segments"]
     last = segments[-1]
-    page.goto(f"{server.address}/datasets/street/images/{image['id']}?segment={last['id']}")
+    page.goto(f"{server.address}/datasets/by-keys/images/{image['id']}?segment={last['id']}")
     expect(page.locator("#label-selection")).to_contain_text("of")
     page.keyboard.press("x")
     expect(page.get_by_text("All saved")).to_be_visible()
@@ -164,11 +177,10 @@ def test_a_click_selects_and_the_address_leads_back_to_the_candidate(
     assert sum(segment["verdict"] != "undecided" for segment in after) == 1
 
 
-def test_the_key_list_shows_every_key(page: Page, serve: Callable[..., Any], folder: Path) -> None:
-    server = serve(str(folder))
-    image = wait_for_run(page, server, "street")[0]
-    page.goto(f"{server.address}/datasets/street/images/{image['id']}")
+def test_the_key_list_shows_every_key(page: Page, server: Any, images: list[dict[str, Any]]) -> None:
+    image = images[1]
+    page.goto(f"{server.address}/datasets/by-keys/images/{image['id']}")
     expect(page.get_by_label("Progress")).to_be_visible()
     page.keyboard.press("?")
     for words in ("Keep", "Reject", "Ambiguous", "Undo", "Redo", "Hide rejected"):
-        expect(page.get_by_text(words, exact=False).first).to_be_visible()
+        expect(page.get_by_role("region", name="Keys").get_by_text(words, exact=False).first).to_be_visible()

@@ -5,10 +5,8 @@ from __future__ import annotations
 import io
 import json
 import re
-import subprocess
-import sys
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +17,6 @@ from playwright.sync_api import FilePayload, Locator, Page, expect
 
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
-
-pytestmark = pytest.mark.xdist_group("leaderboard")
 
 WIDTH, HEIGHT = 640, 480
 IMAGES = ("alley", "bridge", "corner")
@@ -52,15 +48,9 @@ WEAK: dict[str, tuple[float, ...]] = {"alley": (100, 200), "bridge": (100, 150, 
 
 
 @pytest.fixture(scope="module")
-def server(
-    tmp_path_factory: pytest.TempPathFactory,
-    start_server: Callable[..., Any],
-    import_dataset: Callable[..., None],
-) -> Iterator[Any]:
-    """A server with a labelled dataset and a split of it, which nothing was submitted to."""
-    folder = tmp_path_factory.mktemp("leaderboard")
-    server = start_server(folder / "data")
-    streets = folder / "streets"
+def streets(tmp_path_factory: pytest.TempPathFactory, server: Any, import_dataset: Callable[..., None]) -> Any:
+    """The server with a labelled dataset and a split of it, which nothing was submitted to."""
+    streets = tmp_path_factory.mktemp("leaderboard") / "streets"
     for part in ("images", "labels"):
         (streets / part).mkdir(parents=True)
     labels = write_label_npy(Segments.from_list([vertical(x) for x in COLUMNS]))
@@ -69,8 +59,7 @@ def server(
         (streets / "labels" / f"{name}_edge_segments_filtered.npy").write_bytes(labels)
     import_dataset(server, streets, "streets")
     server.ask("/datasets/streets/splits", {"name": "Old town", "visibility": "open"})
-    yield server
-    server.stop()
+    return server
 
 
 def submit(page: Page, server: Any, method: str, files: FilePayload | list[FilePayload]) -> None:
@@ -92,13 +81,13 @@ def zipped(columns: dict[str, tuple[float, ...]]) -> FilePayload:
 
 
 @pytest.fixture(scope="module")
-def board(server: Any, browser: Any) -> Any:
+def board(streets: Any, browser: Any) -> Any:
     """The server with two methods on the board of the split."""
     page = browser.new_page()
-    submit(page, server, "Sharp", zipped(PERFECT))
-    submit(page, server, "Dull", zipped(WEAK))
+    submit(page, streets, "Sharp", zipped(PERFECT))
+    submit(page, streets, "Dull", zipped(WEAK))
     page.close()
-    return server
+    return streets
 
 
 def submissions(server: Any) -> dict[str, Any]:
@@ -110,8 +99,8 @@ def rows(page: Page) -> Locator:
     return page.get_by_role("table", name="Leaderboard").locator("tbody tr")
 
 
-def test_a_maintainer_freezes_a_split_and_finds_its_empty_board(page: Page, server: Any) -> None:
-    page.goto(f"{server.address}/datasets/streets")
+def test_a_maintainer_freezes_a_split_and_finds_its_empty_board(page: Page, streets: Any) -> None:
+    page.goto(f"{streets.address}/datasets/streets")
     page.get_by_role("link", name="Splits", exact=True).click()
     page.get_by_role("button", name="Freeze a split").click()
     panel = page.get_by_role("form", name="Freeze a split")
@@ -120,20 +109,20 @@ def test_a_maintainer_freezes_a_split_and_finds_its_empty_board(page: Page, serv
     panel.get_by_label("Minimum length, px").fill("50")
     page.keyboard.press("Enter")
     expect(page.get_by_role("heading", name="Harbour")).to_be_visible()
-    expect(page).to_have_url(f"{server.address}/splits/harbour")
+    expect(page).to_have_url(f"{streets.address}/splits/harbour")
     expect(page.get_by_role("heading", name="Nothing scored yet")).to_be_visible()
-    split = server.ask("/splits/harbour")
+    split = streets.ask("/splits/harbour")
     assert (split["version"]["images"], split["min_length"]) == (3, 50)
     page.get_by_role("link", name="Leaderboards").first.click()
     expect(page.get_by_role("link", name="Harbour")).to_be_visible()
 
 
-def test_a_dataset_that_came_labelled_says_so(page: Page, server: Any) -> None:
-    page.goto(server.address)
+def test_a_dataset_that_came_labelled_says_so(page: Page, streets: Any) -> None:
+    page.goto(streets.address)
     card = page.get_by_role("listitem").filter(has=page.get_by_role("link", name="streets"))
     expect(card).to_contain_text("3 images · 12 labels")
     expect(card.get_by_text("Labelled", exact=True)).to_be_visible()
-    page.goto(f"{server.address}/datasets/streets")
+    page.goto(f"{streets.address}/datasets/streets")
     expect(page.get_by_role("main")).to_contain_text("3 images · 12 labels")
     expect(page.get_by_role("list", name="Images").get_by_role("link").first).to_have_accessible_name(
         re.compile("^alley, .*, 4 labels$")
@@ -150,9 +139,9 @@ def test_results_are_checked_scored_and_looked_at(page: Page, board: Any) -> Non
     expect(page.locator("main ol").get_by_role("listitem").first).to_contain_text("results.zip")
 
 
-def test_what_is_wrong_with_files_is_all_said_and_nothing_is_stored(page: Page, server: Any) -> None:
-    before = server.ask("/splits/old-town/submissions?mine=true")["total"]
-    page.goto(f"{server.address}/splits/old-town/submit")
+def test_what_is_wrong_with_files_is_all_said_and_nothing_is_stored(page: Page, streets: Any) -> None:
+    before = streets.ask("/splits/old-town/submissions?mine=true")["total"]
+    page.goto(f"{streets.address}/splits/old-town/submit")
     points = [[100, 100], [100, "Infinity"]]
     broken = json.dumps({"segments": [{"points": points}]}).encode()
     stranger = json.dumps({"segments": []}).encode()
@@ -169,7 +158,7 @@ def test_what_is_wrong_with_files_is_all_said_and_nothing_is_stored(page: Page, 
     expect(wrong).to_contain_text("nowhere.json")
     page.get_by_label("Method").fill("Broken")
     expect(page.get_by_role("button", name=re.compile("^Submit"))).to_be_disabled()
-    assert server.ask("/splits/old-town/submissions?mine=true")["total"] == before
+    assert streets.ask("/splits/old-town/submissions?mine=true")["total"] == before
 
     page.get_by_role("button", name="Choose other files").click()
     choose(page, zipped(PERFECT))
@@ -305,17 +294,11 @@ def test_a_narrow_board_is_scrolled_by_keyboard(page: Page, board: Any) -> None:
     assert before["x"] - 20 <= after["x"] <= before["x"]
 
 
-def make_token(server: Any, name: str, role: str) -> str:
-    command = [Path(sys.executable).with_name("clearlines"), "token", "create", name, "--role", role]
-    made = subprocess.run([*command, "--data", server.data], check=True, capture_output=True, text=True)
-    token = re.search(r"cl_\S+", made.stdout)
-    assert token
-    return token.group()
-
-
-def test_a_reader_looks_at_everything_and_is_offered_no_change(page: Page, server: Any) -> None:
-    page.request.post(f"{server.address}/api/session", data={"token": make_token(server, "rita", "reader")})
-    page.goto(server.address)
+def test_a_reader_looks_at_everything_and_is_offered_no_change(
+    page: Page, streets: Any, create_token: Callable[..., str]
+) -> None:
+    page.request.post(f"{streets.address}/api/session", data={"token": create_token(streets, "rita", "reader")})
+    page.goto(streets.address)
     expect(page.get_by_role("button", name="rita, reader")).to_be_visible()
     expect(page.get_by_role("link", name="streets")).to_be_visible()
     for name in ("New dataset", "More for streets"):
@@ -334,12 +317,12 @@ def test_a_reader_looks_at_everything_and_is_offered_no_change(page: Page, serve
     expect(page.locator(".toaster").get_by_text("Judging needs the role annotator")).to_be_visible()
     page.get_by_role("button", name="Next image").click()
     expect(page.get_by_role("heading", name="Image 2 of 3")).to_be_visible()
-    image = server.ask("/datasets/streets/images")["items"][0]
+    image = streets.ask("/datasets/streets/images")["items"][0]
     assert image["verdicts"]["reject"] == 0
 
 
-def test_a_token_signs_in_and_out(page: Page, board: Any) -> None:
-    token = make_token(board, "ada", "submitter")
+def test_a_token_signs_in_and_out(page: Page, board: Any, create_token: Callable[..., str]) -> None:
+    token = create_token(board, "ada", "submitter")
     page.goto(f"{board.address}/datasets/streets?tab=splits")
     expect(page.get_by_role("button", name="Freeze a split")).to_be_visible()
     page.get_by_role("button", name="Not signed in, owner").click()
@@ -356,9 +339,9 @@ def test_a_token_signs_in_and_out(page: Page, board: Any) -> None:
     expect(page.get_by_role("button", name="Freeze a split")).to_be_visible()
 
 
-def test_unknown_splits_and_submissions_lead_back(page: Page, server: Any) -> None:
+def test_unknown_splits_and_submissions_lead_back(page: Page, streets: Any) -> None:
     for path, title in (("splits/nowhere", "split"), ("submissions/99999", "submission"), ("methods/none", "method")):
-        page.goto(f"{server.address}/{path}")
+        page.goto(f"{streets.address}/{path}")
         expect(page.get_by_role("heading", name=f"There is no such {title}")).to_be_visible()
         page.get_by_role("link", name="All leaderboards").click()
-        expect(page).to_have_url(f"{server.address}/splits")
+        expect(page).to_have_url(f"{streets.address}/splits")

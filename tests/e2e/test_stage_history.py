@@ -15,7 +15,6 @@ from playwright.sync_api import Page, expect
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
-pytestmark = pytest.mark.xdist_group("label page")
 POSTS = ((130, 134), (240, 245))
 
 

@@ -5,13 +5,10 @@ from __future__ import annotations
 import io
 import json
 import re
-import subprocess
-import sys
 import time
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import cv2
@@ -23,9 +20,7 @@ from playwright.sync_api import Page, expect
 from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
-pytestmark = pytest.mark.xdist_group("viewer")
 WIDTH, HEIGHT = 640, 480
-CLEARLINES = Path(sys.executable).with_name("clearlines")
 
 Row = tuple[int, int, int]
 # From x to x at height y: labels of all images, then what is submitted for each.
@@ -42,7 +37,7 @@ FOUND_BY_OTHER = {**FOUND, "a": ((100, 500, 200), (100, 500, 300), (50, 340, 421
 
 @dataclass(frozen=True)
 class Scored:
-    """Two scored submissions on a server of their own."""
+    """Two scored submissions."""
 
     server: Any
     mine: int
@@ -113,32 +108,20 @@ def freeze(api: httpx.Client, dataset: str, visibility: str) -> str:
     return answer.json()["slug"]
 
 
-def make_token(server: Any, name: str, role: str) -> str:
-    command = [CLEARLINES, "token", "create", name, "--role", role, "--data", server.data]
-    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    found = re.search(r"cl_\S+", printed)
-    assert found, printed
-    return found[0]
-
-
 @pytest.fixture(scope="module")
-def scored(tmp_path_factory: pytest.TempPathFactory, start_server: Callable[..., Any]) -> Iterator[Scored]:
-    server = start_server(tmp_path_factory.mktemp("viewer") / "data")
-    try:
-        with httpx.Client(base_url=f"{server.address}/api", timeout=30) as api:
-            upload(api, "streets", tuple(FOUND), grey=100)
-            upload(api, "secrets", ("x",), grey=60)
-            split = freeze(api, "streets", "open")
-            mine = submit(api, split, "Row finder", FOUND)
-            other = submit(api, split, "Other finder", FOUND_BY_OTHER)
-            rows = api.get(f"/submissions/{mine}/images").json()["items"]
-            secret = freeze(api, "secrets", "hidden")
-            token = make_token(server, "author", "submitter")
-            api.headers["Authorization"] = f"Bearer {token}"
-            hidden = submit(api, secret, "Secret finder", {"x": LABELS})
-        yield Scored(server, mine, other, hidden, {row["name"]: row["image_id"] for row in rows}, token)
-    finally:
-        server.stop()
+def scored(server: Any, create_token: Callable[..., str]) -> Scored:
+    with httpx.Client(base_url=f"{server.address}/api", timeout=30) as api:
+        upload(api, "lanes", tuple(FOUND), grey=100)
+        upload(api, "secrets", ("x",), grey=60)
+        split = freeze(api, "lanes", "open")
+        mine = submit(api, split, "Row finder", FOUND)
+        other = submit(api, split, "Other finder", FOUND_BY_OTHER)
+        rows = api.get(f"/submissions/{mine}/images").json()["items"]
+        secret = freeze(api, "secrets", "hidden")
+        token = create_token(server, "author", "submitter")
+        api.headers["Authorization"] = f"Bearer {token}"
+        hidden = submit(api, secret, "Secret finder", {"x": LABELS})
+    return Scored(server, mine, other, hidden, {row["name"]: row["image_id"] for row in rows}, token)
 
 
 def open_viewer(page: Page, address: str) -> None:
@@ -271,7 +254,7 @@ def test_ignored_lines_are_shown_on_request(page: Page, scored: Scored) -> None:
     expect(page).to_have_url(scored.address("a"))
 
 
-@pytest.mark.parametrize("place", ["submissions/{submission}/images/{image}", "datasets/streets/images/{image}"])
+@pytest.mark.parametrize("place", ["submissions/{submission}/images/{image}", "datasets/lanes/images/{image}"])
 def test_the_bar_stays_whatever_is_scrolled_into_view(page: Page, scored: Scored, place: str) -> None:
     page.set_viewport_size({"width": 900, "height": 420})
     where = place.format(submission=scored.mine, image=scored.images["a"])
@@ -381,7 +364,7 @@ def test_a_false_positive_goes_to_the_review_queue(page: Page, scored: Scored) -
     page.keyboard.press("j")
     selection(page).to_contain_text("prediction 4")
     page.keyboard.press("r")
-    toast = page.locator(".toast", has_text="a candidate of a in streets")
+    toast = page.locator(".toast", has_text="a candidate of a in lanes")
     expect(toast).to_be_visible()
     expect(page.get_by_role("button", name="In the review queue")).to_be_disabled()
     toast.get_by_role("button", name="Open the review").click()
