@@ -1,10 +1,18 @@
 /** The typed HTTP client; paths, parameters and answers come from the server's OpenAPI. */
 
 import createClient from "openapi-fetch";
+import { personHeaders } from "./person";
 import { problemFrom, unreachable } from "./problem";
 import type { paths } from "./schema";
 
 export const client = createClient<paths>({ baseUrl: "" });
+
+client.use({
+  onRequest({ request }) {
+    for (const [name, value] of Object.entries(personHeaders())) request.headers.set(name, value);
+    return request;
+  },
+});
 
 interface Answer<T> {
   data?: T;

@@ -2,7 +2,7 @@
 
 import { apiUrl, client, unwrap } from "./client";
 import type { components, paths } from "./schema";
-import type { ImageSegments, NewDecision, ReviewStatus, StageHistory } from "./types";
+import type { ImageSegments, NewDecision, NewEdit, Recall, ReviewStatus, StageHistory, Trace } from "./types";
 
 type Schemas = components["schemas"];
 export type ImageFilter = Omit<
@@ -23,6 +23,8 @@ export const listDatasets = (deleted = false) =>
 export const createDataset = (name: string) => unwrap(client.POST("/api/datasets", { body: { name } }));
 export const getDataset = (slug: string) =>
   unwrap(client.GET("/api/datasets/{slug}", { params: dataset(slug) }));
+export const getGuidelines = (slug: string) =>
+  unwrap(client.GET("/api/datasets/{slug}/guidelines", { params: dataset(slug) }));
 export const renameDataset = (slug: string, name: string) =>
   unwrap(client.PATCH("/api/datasets/{slug}", { params: dataset(slug), body: { name } }));
 export const deleteDataset = (slug: string) =>
@@ -49,10 +51,25 @@ export const getImage = (id: number) => unwrap(client.GET("/api/images/{image_id
 // openapi-fetch widens the box's four numbers to an array of any length.
 export const getSegments = (id: number) =>
   unwrap(client.GET("/api/images/{image_id}/segments", { params: image(id) })) as Promise<ImageSegments>;
-export const getPoints = (id: number): Promise<ArrayBuffer> =>
-  unwrap(client.GET("/api/images/{image_id}/points", { params: image(id), parseAs: "arrayBuffer" }));
+export const getPoints = (id: number, view: "plain" | "undistorted" = "plain"): Promise<ArrayBuffer> =>
+  unwrap(
+    client.GET("/api/images/{image_id}/points", {
+      // Left out where it is the usual one: the browser fetches that address ahead.
+      params: { ...image(id), query: view === "plain" ? {} : { view } },
+      parseAs: "arrayBuffer",
+    }),
+  );
+export const getEvidence = (segment_id: number, signal?: AbortSignal) =>
+  unwrap(
+    client.GET("/api/segments/{segment_id}/evidence", {
+      params: { path: { segment_id } },
+      ...(signal === undefined ? {} : { signal }),
+    }),
+  );
 export const getDecisions = (id: number) =>
   unwrap(client.GET("/api/images/{image_id}/decisions", { params: image(id) }));
+export const getNeighbourVerdicts = (id: number) =>
+  unwrap(client.GET("/api/images/{image_id}/neighbour_verdicts", { params: image(id) }));
 export const getStageHistory = (segment_id: number, signal?: AbortSignal) =>
   unwrap(
     client.GET("/api/segments/{segment_id}/history", {
@@ -60,13 +77,37 @@ export const getStageHistory = (segment_id: number, signal?: AbortSignal) =>
       ...(signal === undefined ? {} : { signal }),
     }),
   ) as Promise<StageHistory>;
-export const postDecisions = (id: number, decisions: NewDecision[]) =>
-  unwrap(client.POST("/api/images/{image_id}/decisions", { params: image(id), body: { decisions } }));
-export const putReview = (id: number, status: ReviewStatus, reason: string | null = null) =>
+export const getSuggestions = (id: number) =>
+  unwrap(client.GET("/api/images/{image_id}/suggestions", { params: image(id) }));
+export const getDatasetSuggestions = (slug: string) =>
+  unwrap(client.GET("/api/datasets/{slug}/suggestions", { params: dataset(slug) }));
+export const trainSuggestions = (slug: string) =>
+  unwrap(client.POST("/api/datasets/{slug}/suggestions/train", { params: dataset(slug) }));
+/** @param seen The image's last decision that is known here: later ones of others aren't overruled unseen. */
+export const postDecisions = (id: number, decisions: NewDecision[], seen: number | null = null) =>
+  unwrap(client.POST("/api/images/{image_id}/decisions", { params: image(id), body: { decisions, seen } }));
+// openapi-fetch widens pairs of numbers to arrays of any length.
+export const postTrace = (id: number, wanted: Partial<Schemas["TraceGiven"]>) =>
+  unwrap(
+    client.POST("/api/images/{image_id}/trace", {
+      params: image(id),
+      body: { reach: 8, straight: false, extend: false, ...wanted },
+    }),
+  ) as Promise<Trace>;
+export const getEdits = (id: number) =>
+  unwrap(client.GET("/api/images/{image_id}/edits", { params: image(id) }));
+export const postEdit = (id: number, edit: NewEdit) =>
+  unwrap(client.POST("/api/images/{image_id}/edits", { params: image(id), body: edit }));
+export const putReview = (
+  id: number,
+  status: ReviewStatus,
+  reason: string | null = null,
+  recall: Recall | null = null,
+) =>
   unwrap(
     client.PUT("/api/images/{image_id}/review", {
       params: image(id),
-      body: { status, reason, allow_undecided: false },
+      body: { status, reason, allow_undecided: false, recall },
     }),
   );
 
@@ -95,7 +136,8 @@ export const listCameras = (slug: string) =>
 export const updateCamera = (id: number, changes: Schemas["CameraChange"]) =>
   unwrap(client.PATCH("/api/cameras/{camera_id}", { params: { path: { camera_id: id } }, body: changes }));
 
-export const displayUrl = (imageId: number) => apiUrl(`/images/${imageId}/display`);
+export const displayUrl = (imageId: number, view: "plain" | "clahe" | "undistorted" = "plain") =>
+  apiUrl(`/images/${imageId}/display`, view === "plain" ? {} : { view });
 export const thumbnailUrl = (imageId: number, size: 160 | 320 | 640) =>
   apiUrl(`/images/${imageId}/thumbnail`, { size });
 export const exportUrl = (

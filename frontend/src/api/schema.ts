@@ -96,6 +96,46 @@ export interface paths {
         patch: operations["change_dataset_api_datasets__slug__patch"];
         trace?: never;
     };
+    "/api/datasets/{slug}/agreement": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Agreement
+         * @description Return Cohen's kappa of first and second reviews: over all, per image, pair of people, person and length.
+         */
+        get: operations["read_agreement_api_datasets__slug__agreement_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/assign": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Assign Images
+         * @description Make images someone's task, by hand or in equal shares. Images of one sequence stay with one person.
+         */
+        post: operations["assign_images_api_datasets__slug__assign_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/datasets/{slug}/cameras": {
         parameters: {
             query?: never;
@@ -110,6 +150,29 @@ export interface paths {
         get: operations["list_cameras_api_datasets__slug__cameras_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/candidates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Candidates
+         * @description Import any detector's predictions as undecided candidates, in the form of submissions.
+         *
+         *     Sending the same again changes nothing. 422 with everything that is wrong with the files: `details.errors` has
+         *     `file`, `segment`, `point`, `message`, `expected`, `hint`.
+         */
+        post: operations["add_candidates_api_datasets__slug__candidates_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -156,6 +219,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/datasets/{slug}/differences": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Differences
+         * @description List the candidates on which second reviews that are done differ from the first, by image.
+         */
+        get: operations["read_differences_api_datasets__slug__differences_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/datasets/{slug}/export": {
         parameters: {
             query?: never;
@@ -191,6 +274,26 @@ export interface paths {
          * @description Return what the images of a dataset can be filtered by, with counts.
          */
         get: operations["read_facets_api_datasets__slug__facets_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/guidelines": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Guidelines
+         * @description Return what a dataset's annotators read, and what they are asked.
+         */
+        get: operations["read_guidelines_api_datasets__slug__guidelines_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -271,6 +374,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/datasets/{slug}/people": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List People
+         * @description List everyone who has images of a dataset to review, or decided on some.
+         */
+        get: operations["list_people_api_datasets__slug__people_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/datasets/{slug}/restore": {
         parameters: {
             query?: never;
@@ -315,6 +438,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/datasets/{slug}/second-reviews": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Second Reviews
+         * @description List a dataset's second reviews, and the images that you can begin one of.
+         *
+         *     Which images are due follows from their content and the dataset's rule `second_share`.
+         */
+        get: operations["list_second_reviews_api_datasets__slug__second_reviews_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/datasets/{slug}/splits": {
         parameters: {
             query?: never;
@@ -331,6 +476,68 @@ export interface paths {
          *     409 with a reason for each image whose review isn't done (`details.reasons`).
          */
         post: operations["create_split_api_datasets__slug__splits_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/statistics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Statistics
+         * @description Return progress, pace, time per decision, use of suggestions, reasons and agreement.
+         */
+        get: operations["read_statistics_api_datasets__slug__statistics_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/suggestions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Dataset Suggestions
+         * @description Return a dataset's model: what it was learnt from, how good it is, and when the next one comes.
+         */
+        get: operations["read_dataset_suggestions_api_datasets__slug__suggestions_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/datasets/{slug}/suggestions/train": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Train
+         * @description Have a dataset's model learnt anew from all decisions so far; it takes some seconds, in the background.
+         *
+         *     It happens by itself whenever the decisions have grown by a fifth.
+         */
+        post: operations["train_api_datasets__slug__suggestions_train_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -401,6 +608,10 @@ export interface paths {
         /**
          * Decide
          * @description Store verdicts; all of them or none. A decision whose ``client_id`` is known already changes nothing.
+         *
+         *     With ``seen``, 409 with the code ``stale-verdict`` when someone else decided differently after it, and in
+         *     `details.conflicts` of each `client_id`, `segment_id`, `yours`, `theirs` (`verdict`, `person`, `created_at`,
+         *     `decision_id`).
          */
         post: operations["decide_api_images__image_id__decisions_post"];
         delete?: never;
@@ -419,8 +630,82 @@ export interface paths {
         /**
          * Read Display
          * @description Return the image in a form that a browser shows, pixels as stored: no EXIF rotation, 16 bit brought to 8.
+         *
+         *     The view ``undistorted`` answers 409 while the lens isn't known; ``points`` gives the candidates in the same view.
          */
         get: operations["read_display_api_images__image_id__display_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/images/{image_id}/edits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Edits
+         * @description Return all edits of an image, oldest first.
+         */
+        get: operations["read_edits_api_images__image_id__edits_get"];
+        put?: never;
+        /**
+         * Edit
+         * @description Replace segments by others, all or nothing. An edit whose ``client_id`` is known already changes nothing.
+         *
+         *     What comes is of origin ``manual`` and kept; the parts of a cut have the verdict of what was cut. Decisions of kind
+         *     ``undo`` and ``redo`` whose ``target_group_id`` is the ``client_id`` take it back and do it again. 409 with the code
+         *     ``stale-edit`` when a segment was changed meanwhile, and in `details.current` what took its place.
+         */
+        post: operations["edit_api_images__image_id__edits_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/images/{image_id}/lease": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Put Lease
+         * @description Say that you have an image open, for 60 s. The first one holds it; others see who it is and can take it over.
+         */
+        put: operations["put_lease_api_images__image_id__lease_put"];
+        post?: never;
+        /**
+         * Delete Lease
+         * @description Say that you have left an image.
+         */
+        delete: operations["delete_lease_api_images__image_id__lease_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/images/{image_id}/neighbour_verdicts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Neighbour Verdicts
+         * @description Return verdicts of the same edges in the frames before and after, for candidates that are undecided here.
+         */
+        get: operations["read_neighbour_verdicts_api_images__image_id__neighbour_verdicts_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -483,9 +768,33 @@ export interface paths {
         /**
          * Set Review
          * @description Say how far the people are with an image. ``done`` is refused while candidates are undecided.
+         *
+         *     409 with the code `recall-asked` when the dataset's rules ask for the recall and it isn't told.
          */
         put: operations["set_review_api_images__image_id__review_put"];
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/images/{image_id}/second-review": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begin Second Review
+         * @description Begin a second review of an image, or return your own.
+         *
+         *     409 with the code `not-blind` when you took part in the first, `second-review-taken` when another person has it.
+         */
+        post: operations["begin_second_review_api_images__image_id__second_review_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -512,6 +821,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/images/{image_id}/suggestions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Image Suggestions
+         * @description Return the probability that a person keeps each candidate, and why; nothing is decided by it.
+         *
+         *     What isn't known of the candidates yet is computed first, which takes a moment on a large image.
+         */
+        get: operations["read_image_suggestions_api_images__image_id__suggestions_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/images/{image_id}/thumbnail": {
         parameters: {
             query?: never;
@@ -526,6 +857,29 @@ export interface paths {
         get: operations["read_thumbnail_api_images__image_id__thumbnail_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/images/{image_id}/trace": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Trace
+         * @description Trace the edge between two to twenty points, or beyond both ends of a segment; nothing is stored.
+         *
+         *     The points are those that the pipeline measures. 422 with the code ``no-edge`` where no edge runs; with
+         *     ``straight`` the line as drawn comes back instead, bent as the image's lens bends a straight line.
+         */
+        post: operations["trace_api_images__image_id__trace_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -680,6 +1034,130 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/second-reviews/{second_review_id}/adjudications": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Adjudication
+         * @description Decide between two verdicts, by a normal decision. Sending it again changes nothing.
+         */
+        post: operations["add_adjudication_api_second_reviews__second_review_id__adjudications_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/second-reviews/{second_review_id}/adjudications/{segment_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete Adjudication
+         * @description Take an adjudication back: the candidate has the verdict again that it had before.
+         */
+        delete: operations["delete_adjudication_api_second_reviews__second_review_id__adjudications__segment_id__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/second-reviews/{second_review_id}/decisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Second Decisions
+         * @description Return all decisions of your second review, oldest first.
+         */
+        get: operations["read_second_decisions_api_second_reviews__second_review_id__decisions_get"];
+        put?: never;
+        /**
+         * Decide Second
+         * @description Store verdicts of your second review; all of them or none. Sending one again changes nothing.
+         */
+        post: operations["decide_second_api_second_reviews__second_review_id__decisions_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/second-reviews/{second_review_id}/review": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Second Review
+         * @description Say that your second review is done, or open again. `done` is refused while candidates are undecided.
+         */
+        put: operations["set_second_review_api_second_reviews__second_review_id__review_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/second-reviews/{second_review_id}/segments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Second Segments
+         * @description Return the image's candidates with your verdicts of this review alone; their points are the image's.
+         */
+        get: operations["read_second_segments_api_second_reviews__second_review_id__segments_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/segments/{segment_id}/evidence": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Evidence
+         * @description Return what speaks for a candidate, measured along it: deviation from straight under the lens, and contrast.
+         */
+        get: operations["read_evidence_api_segments__segment_id__evidence_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/segments/{segment_id}/history": {
         parameters: {
             query?: never;
@@ -809,6 +1287,28 @@ export interface paths {
         get: operations["read_board_csv_api_splits__split__board_csv_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/splits/{split}/ceiling": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Make Ceiling
+         * @description Put what second reviewers kept on the board, as a row without a rank: how well people do against one another.
+         *
+         *     409 naming the images of the newest version that nobody has reviewed a second time.
+         */
+        post: operations["make_ceiling_api_splits__split__ceiling_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -993,6 +1493,8 @@ export interface paths {
         /**
          * Read Truth File
          * @description Return the frozen labels in one file for all images, with verdicts ``keep`` and ``ambiguous``.
+         *
+         *     JSON also has the candidates that were rejected with a reason, after the labels of an image.
          *
          *     404 on hidden splits below maintainer.
          */
@@ -1324,6 +1826,121 @@ export interface components {
             submit: boolean;
         };
         /**
+         * Adjudicated
+         * @description What was decided where two differed.
+         */
+        Adjudicated: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Person */
+            person: string | null;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous";
+        };
+        /**
+         * AdjudicationGiven
+         * @description A decision between two verdicts.
+         * @example {
+         *       "client_id": "4b0f0c5e-6d8c-4f6e-9d4e-1f7f2f0a6a03",
+         *       "segment_id": 17,
+         *       "verdict": "keep"
+         *     }
+         */
+        AdjudicationGiven: {
+            /**
+             * Client Id
+             * Format: uuid
+             */
+            client_id: string;
+            /** Segment Id */
+            segment_id: number;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous";
+        };
+        /**
+         * AgreementAnswer
+         * @description How far the people of a dataset agree.
+         */
+        AgreementAnswer: {
+            /** Adjudicated */
+            adjudicated: number;
+            /** Differences */
+            differences: number;
+            /** Images */
+            images: components["schemas"]["ImageAgreement"][];
+            /** Lengths */
+            lengths: components["schemas"]["LengthAgreement"][];
+            overall: components["schemas"]["KappaAnswer"];
+            /** Pairs */
+            pairs: components["schemas"]["PairAgreement"][];
+            /** People */
+            people: components["schemas"]["PersonAgreement"][];
+            /**
+             * Reviews
+             * @description Second reviews that are done.
+             */
+            reviews: number;
+        };
+        /**
+         * AgreementSummary
+         * @description Agreement of first and second reviews.
+         */
+        AgreementSummary: {
+            /** Adjudicated */
+            adjudicated: number;
+            /** Differences */
+            differences: number;
+            kappa: components["schemas"]["KappaAnswer"];
+            /** Reviews */
+            reviews: number;
+        };
+        /**
+         * AssignGiven
+         * @description Whose task images are to be.
+         * @example {
+         *       "mode": "shares",
+         *       "people": [
+         *         "Mara",
+         *         "Jon"
+         *       ]
+         *     }
+         */
+        AssignGiven: {
+            /**
+             * Image Ids
+             * @description All open images that are nobody's task when left out.
+             */
+            image_ids?: number[] | null;
+            /**
+             * Mode
+             * @description Equal shares that keep a drive together, or all to one person.
+             * @enum {string}
+             */
+            mode: "shares" | "to";
+            /**
+             * People
+             * @description For `to` one, or none to take images back.
+             */
+            people: string[];
+        };
+        /**
+         * Assigned
+         * @description What was assigned.
+         */
+        Assigned: {
+            /** People */
+            people: components["schemas"]["Share"][];
+        };
+        /**
          * BoardAnswer
          * @description The board of a split version.
          */
@@ -1397,6 +2014,14 @@ export interface components {
              */
             warning: string | null;
         };
+        /** Body_add_candidates_api_datasets__slug__candidates_post */
+        Body_add_candidates_api_datasets__slug__candidates_post: {
+            /**
+             * Files
+             * @description One .zip or .tar.gz of a file per image, one .npz or .json for all, or a file per image.
+             */
+            files: string[];
+        };
         /** Body_hand_in_api_splits__split__submissions_post */
         Body_hand_in_api_splits__split__submissions_post: {
             /**
@@ -1450,6 +2075,75 @@ export interface components {
              * @description One .zip or .tar.gz of a file per image, one .npz or .json for all, or a file per image.
              */
             files: string[];
+        };
+        /**
+         * Calibration
+         * @description How well probabilities agree with what people decided, on images that the model wasn't learnt from.
+         */
+        Calibration: {
+            /**
+             * Base Error Rate
+             * @description Share that is wrong where all get the more frequent verdict.
+             */
+            base_error_rate: number;
+            /** Bins */
+            bins: components["schemas"]["CalibrationBin"][];
+            /**
+             * Brier
+             * @description Mean squared difference of probability and verdict.
+             */
+            brier: number;
+            /**
+             * Count
+             * @description Candidates that it was measured on.
+             */
+            count: number;
+            /**
+             * Ece
+             * @description Expected calibration error: mean distance of probability and share kept.
+             */
+            ece: number;
+            /**
+             * Error Rate
+             * @description Share that is wrong where all suggestions at 0.5 are taken.
+             */
+            error_rate: number;
+            /** Images */
+            images: number;
+            /**
+             * Log Loss
+             * @description Mean negative log likelihood, nats.
+             */
+            log_loss: number;
+        };
+        /**
+         * CalibrationBin
+         * @description Candidates of about one probability, on images that the model wasn't learnt from.
+         */
+        CalibrationBin: {
+            /** Count */
+            count: number;
+            /** High */
+            high: number;
+            /** Low */
+            low: number;
+            /**
+             * Observed
+             * @description Share of them that a person kept.
+             */
+            observed: number | null;
+            /** Observed High */
+            observed_high: number | null;
+            /**
+             * Observed Low
+             * @description 95 % interval of that share.
+             */
+            observed_low: number | null;
+            /**
+             * Predicted
+             * @description Mean probability that they had.
+             */
+            predicted: number | null;
         };
         /**
          * CameraAnswer
@@ -1548,6 +2242,34 @@ export interface components {
             id: number;
             /** Name */
             name: string;
+        };
+        /**
+         * CandidatesImported
+         * @description What became of predictions.
+         */
+        CandidatesImported: {
+            /** Added */
+            added: number;
+            /**
+             * Duplicates
+             * @description Not taken: the image has a candidate there, or had this very one.
+             */
+            duplicates: number;
+            /**
+             * Images
+             * @description Images that there were predictions for.
+             */
+            images: number;
+            /**
+             * Left Out
+             * @description Files that weren't read.
+             */
+            left_out: components["schemas"]["LeftOutFile"][];
+            /**
+             * Reopened
+             * @description Images that were done and wait for verdicts again.
+             */
+            reopened: number;
         };
         /**
          * Card
@@ -1784,12 +2506,19 @@ export interface components {
             /** Description */
             description?: string | null;
             /**
+             * Guidelines
+             * @description What annotators read; Markdown.
+             */
+            guidelines?: string | null;
+            /**
              * Licence
              * @description Under which the images and labels are.
              */
             licence?: string | null;
             /** Name */
             name?: string | null;
+            /** @description All of them; `null` for the defaults. */
+            rules?: components["schemas"]["Rules"] | null;
         };
         /**
          * DatasetGiven
@@ -1816,6 +2545,42 @@ export interface components {
             slug: string;
         };
         /**
+         * DatasetSuggestions
+         * @description The model that suggests in a dataset, how good it is, and when the next one comes.
+         */
+        DatasetSuggestions: {
+            /** @description Null for the general model. */
+            calibration: components["schemas"]["Calibration"] | null;
+            /** Gain */
+            gain: components["schemas"]["GainEntry"][];
+            model: components["schemas"]["ModelName"];
+            thresholds: components["schemas"]["Thresholds"];
+            training: components["schemas"]["TrainingState"];
+            /**
+             * Weights
+             * @description The heaviest first.
+             */
+            weights: components["schemas"]["FeatureWeight"][];
+        };
+        /**
+         * DayProgress
+         * @description What happened on a day, UTC.
+         */
+        DayProgress: {
+            /**
+             * Day
+             * Format: date
+             */
+            day: string;
+            /** Decisions */
+            decisions: number;
+            /**
+             * Done
+             * @description Images finished then, and still.
+             */
+            done: number;
+        };
+        /**
          * DecisionAnswer
          * @description One row of an image's history.
          */
@@ -1837,7 +2602,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "judge" | "undo" | "redo" | "carry" | "import";
+            kind: "judge" | "undo" | "redo" | "carry" | "import" | "accept" | "take_over";
             /** Person */
             person: string | null;
             /**
@@ -1845,8 +2610,12 @@ export interface components {
              * @enum {string}
              */
             previous: "keep" | "reject" | "ambiguous" | "undecided";
+            /** Reason */
+            reason: ("car" | "lane_marking" | "curved" | "shadow" | "other") | null;
             /** Segment Id */
             segment_id: number;
+            /** Suggestion */
+            suggestion: number | null;
             /** Target Group Id */
             target_group_id: string | null;
             /**
@@ -1868,7 +2637,7 @@ export interface components {
             client_id: string;
             /**
              * Elapsed Ms
-             * @description How long the person took.
+             * @description How long the key press took; with one of its group.
              */
             elapsed_ms?: number | null;
             /**
@@ -1878,12 +2647,23 @@ export interface components {
             group_id: string;
             /**
              * Kind
+             * @description accept: of a suggestion; take_over: from a neighbouring frame of the sequence.
              * @default judge
              * @enum {string}
              */
-            kind: "judge" | "undo" | "redo";
+            kind: "judge" | "accept" | "take_over" | "undo" | "redo";
+            /**
+             * Reason
+             * @description Why it is rejected; for no other verdict.
+             */
+            reason?: ("car" | "lane_marking" | "curved" | "shadow" | "other") | null;
             /** Segment Id */
             segment_id: number;
+            /**
+             * Suggestion
+             * @description The probability of keep that the person saw.
+             */
+            suggestion?: number | null;
             /**
              * Target Group Id
              * @description The group that an undo or redo is about.
@@ -1894,6 +2674,25 @@ export interface components {
              * @enum {string}
              */
             verdict: "keep" | "reject" | "ambiguous" | "undecided";
+        };
+        /**
+         * DecisionTimes
+         * @description How long key presses took, ms.
+         */
+        DecisionTimes: {
+            /** Count */
+            count: number;
+            /**
+             * Histogram
+             * @description Numbers by `edges`.
+             */
+            histogram: number[];
+            /** Lower Quartile */
+            lower_quartile: number | null;
+            /** Median */
+            median: number | null;
+            /** Upper Quartile */
+            upper_quartile: number | null;
         };
         /**
          * DecisionsGiven
@@ -1913,12 +2712,27 @@ export interface components {
         DecisionsGiven: {
             /** Decisions */
             decisions: components["schemas"]["DecisionGiven"][];
+            /**
+             * Seen
+             * @description The last decision that you knew: later ones of others aren't overruled.
+             */
+            seen?: number | null;
         };
         /**
          * DecisionsStored
          * @description What became of the decisions.
          */
         DecisionsStored: {
+            /**
+             * Last Decision Id
+             * @description Send it as `seen` once you know `others`.
+             */
+            last_decision_id: number;
+            /**
+             * Others
+             * @description Verdicts that others gave after what you had seen.
+             */
+            others: components["schemas"]["OtherVerdict"][];
             /**
              * Repeated
              * @description Known already by their client_id.
@@ -1947,6 +2761,205 @@ export interface components {
             restorable_until: string;
         };
         /**
+         * Difference
+         * @description A candidate on which first and second review differ.
+         */
+        Difference: {
+            adjudicated: components["schemas"]["Adjudicated"] | null;
+            /**
+             * Box
+             * @description x0, y0, x1, y1 in px.
+             */
+            box: [
+                number,
+                number,
+                number,
+                number
+            ];
+            first: components["schemas"]["GivenVerdict"];
+            /** Image */
+            image: string;
+            /** Image Id */
+            image_id: number;
+            /**
+             * Length
+             * @description Arc length, px.
+             */
+            length: number;
+            second: components["schemas"]["GivenVerdict"];
+            /** Second Review Id */
+            second_review_id: number;
+            /** Segment Id */
+            segment_id: number;
+        };
+        /**
+         * DifferencePage
+         * @description A page of differences, by image.
+         */
+        DifferencePage: {
+            /** Items */
+            items: components["schemas"]["Difference"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Total */
+            total: number;
+        };
+        /**
+         * DueImage
+         * @description An image that you can begin a second review of.
+         */
+        DueImage: {
+            /** Candidates */
+            candidates: number;
+            /** Image Id */
+            image_id: number;
+            /** Name */
+            name: string;
+        };
+        /**
+         * EditAnswer
+         * @description An edit of an image.
+         */
+        EditAnswer: {
+            /** Added */
+            added: number[];
+            /**
+             * Client Id
+             * @description The group of its decisions: undo and redo name it as their target.
+             */
+            client_id: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Id */
+            id: number;
+            /** Image Id */
+            image_id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "trace" | "cut" | "join" | "extend" | "trim";
+            /** Person */
+            person: string | null;
+            /** Replaced */
+            replaced: number[];
+            /** Undone At */
+            undone_at: string | null;
+        };
+        /**
+         * EditGiven
+         * @description Segments replaced by others. Without `adds` the server makes them of what is replaced.
+         * @example {
+         *       "adds": [
+         *         [
+         *           [
+         *             120,
+         *             88.5
+         *           ],
+         *           [
+         *             365,
+         *             90.8
+         *           ],
+         *           [
+         *             610,
+         *             93
+         *           ]
+         *         ]
+         *       ],
+         *       "client_id": "0c4e1b7a-5f0e-4a53-9a0c-0d1f5b7e2c11",
+         *       "kind": "trace",
+         *       "replaces": []
+         *     }
+         */
+        EditGiven: {
+            /**
+             * Adds
+             * @description The segments that come, px. A trace needs them; every other kind can do without.
+             */
+            adds?: [
+                number,
+                number
+            ][][] | null;
+            /**
+             * At
+             * @description Where to cut, or up to where to trim the nearer end, px.
+             */
+            at?: [
+                number,
+                number
+            ] | null;
+            /**
+             * Client Id
+             * Format: uuid
+             * @description Made by the client; sending the same one again changes nothing.
+             */
+            client_id: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "trace" | "cut" | "join" | "extend" | "trim";
+            /**
+             * Replaces
+             * @description Ids of current segments that go.
+             */
+            replaces?: number[];
+        };
+        /**
+         * EditStored
+         * @description An edit, and what its image is like afterwards.
+         */
+        EditStored: {
+            /** Added */
+            added: number[];
+            /**
+             * Client Id
+             * @description The group of its decisions: undo and redo name it as their target.
+             */
+            client_id: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Id */
+            id: number;
+            /** Image Id */
+            image_id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "trace" | "cut" | "join" | "extend" | "trim";
+            /** Last Decision Id */
+            last_decision_id: number;
+            /** Person */
+            person: string | null;
+            /** Replaced */
+            replaced: number[];
+            /** Revision */
+            revision: number;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "open" | "done" | "discarded";
+            /** Undone At */
+            undone_at: string | null;
+            verdicts: components["schemas"]["VerdictCounts"];
+        };
+        /**
+         * EditsAnswer
+         * @description All edits of an image, oldest first, undone ones too.
+         */
+        EditsAnswer: {
+            /** Edits */
+            edits: components["schemas"]["EditAnswer"][];
+        };
+        /**
          * ErrorInfo
          * @description Why one thing of many failed.
          */
@@ -1973,6 +2986,76 @@ export interface components {
             low: number | null;
             /** Value */
             value: number | null;
+        };
+        /**
+         * Evidence
+         * @description Evidence along a segment, from its first point to its last; at most 400 places of each list.
+         */
+        Evidence: {
+            /**
+             * Along
+             * @description Arc length at each place, px.
+             */
+            along: number[];
+            /**
+             * Contrast
+             * @description Median size of the step, grey levels.
+             */
+            contrast: number;
+            /**
+             * Deviation
+             * @description Distance from the segment's straight line under the lens, px of the image as stored.
+             */
+            deviation: number[];
+            /**
+             * Evenness
+             * @description Lower quartile of the step's size over its median, 0 to 1.
+             */
+            evenness: number;
+            /** Image Id */
+            image_id: number;
+            /**
+             * Length
+             * @description Arc length, px.
+             */
+            length: number;
+            /**
+             * Lens
+             * @description Unless accepted, straight means straight in the image as it is.
+             * @enum {string}
+             */
+            lens: "accepted" | "refused" | "none";
+            /**
+             * Maximum
+             * @description Largest deviation, px.
+             */
+            maximum: number;
+            /**
+             * Noise
+             * @description Standard deviation of the points across the edge, px.
+             */
+            noise: number;
+            /**
+             * Polarity
+             * @description Share of points whose bright side is the usual one, 0.5 to 1.
+             */
+            polarity: number;
+            /**
+             * Residual
+             * @description RMS of the deviation, px.
+             */
+            residual: number;
+            /** Score */
+            score: number | null;
+            /** Segment Id */
+            segment_id: number;
+            /**
+             * Step
+             * @description Brightness to the right of the way minus to the left, grey levels.
+             */
+            step: number[];
+            /** Straightness */
+            straightness: number | null;
         };
         /**
          * ExistingImage
@@ -2011,6 +3094,8 @@ export interface components {
          * @description What images can be filtered by.
          */
         Facets: {
+            /** Assignees */
+            assignees: components["schemas"]["Facet"][];
             /** Cameras */
             cameras: components["schemas"]["CameraFacet"][];
             /** Prelabel */
@@ -2036,6 +3121,67 @@ export interface components {
             name: string;
         };
         /**
+         * FeatureWeight
+         * @description How much a feature counts in the model.
+         */
+        FeatureWeight: {
+            /** Feature */
+            feature: string;
+            /**
+             * Weight
+             * @description Log odds that it adds or takes; negative where more of it speaks against.
+             */
+            weight: number;
+        };
+        /**
+         * GainEntry
+         * @description What accepting suggestions would have cost and spared on one image that the model wasn't learnt from.
+         */
+        GainEntry: {
+            /** Candidates */
+            candidates: number;
+            /**
+             * Images
+             * @description Images labelled before.
+             */
+            images: number;
+            /**
+             * Keys
+             * @description With suggestions: one accepts them, two mend a wrong one, one judges one left.
+             */
+            keys: number;
+            /**
+             * Keys By Hand
+             * @description Without: one for each candidate, or two for each kept and one to reject the rest, if that is less.
+             */
+            keys_by_hand: number;
+        };
+        /**
+         * GivenVerdict
+         * @description A verdict and who gave it.
+         */
+        GivenVerdict: {
+            /** Person */
+            person: string | null;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous";
+        };
+        /**
+         * GuidelinesAnswer
+         * @description What annotators read and are asked.
+         */
+        GuidelinesAnswer: {
+            /**
+             * Guidelines
+             * @description Markdown.
+             */
+            guidelines: string | null;
+            rules: components["schemas"]["Rules"];
+        };
+        /**
          * Health
          * @description The server answers.
          */
@@ -2056,6 +3202,32 @@ export interface components {
         History: {
             /** Decisions */
             decisions: components["schemas"]["DecisionAnswer"][];
+        };
+        /**
+         * HourProgress
+         * @description Verdicts given in an hour that begins at this time.
+         */
+        HourProgress: {
+            /** Decisions */
+            decisions: number;
+            /**
+             * Hour
+             * Format: date-time
+             */
+            hour: string;
+        };
+        /**
+         * ImageAgreement
+         * @description Agreement on one image.
+         */
+        ImageAgreement: {
+            /** Image Id */
+            image_id: number;
+            kappa: components["schemas"]["KappaAnswer"];
+            /** Name */
+            name: string;
+            /** Second Person */
+            second_person: string | null;
         };
         /**
          * ImageChange
@@ -2080,6 +3252,11 @@ export interface components {
          * @description An image with its neighbours in the dataset and the lens it was seen through.
          */
         ImageDetail: {
+            /**
+             * Assignee
+             * @description Whose task it is.
+             */
+            assignee: string | null;
             /** Bits */
             bits: number;
             camera: components["schemas"]["CameraName"];
@@ -2112,7 +3289,10 @@ export interface components {
             name: string;
             /** Next Id */
             next_id: number | null;
-            /** Next Open Id */
+            /**
+             * Next Open Id
+             * @description The next one to review: open, not another person's task, and no other person has it open.
+             */
             next_open_id: number | null;
             /** Position */
             position: number;
@@ -2219,10 +3399,29 @@ export interface components {
             total: number;
         };
         /**
+         * ImageSuggestions
+         * @description Suggestions for an image's candidates; nothing is decided by them until a person accepts them.
+         */
+        ImageSuggestions: {
+            /** Image Id */
+            image_id: number;
+            model: components["schemas"]["ModelName"];
+            /** Revision */
+            revision: number;
+            /** Segments */
+            segments: components["schemas"]["Suggestion"][];
+            thresholds: components["schemas"]["Thresholds"];
+        };
+        /**
          * ImageSummary
          * @description An image as lists show it.
          */
         ImageSummary: {
+            /**
+             * Assignee
+             * @description Whose task it is.
+             */
+            assignee: string | null;
             /** Bits */
             bits: number;
             camera: components["schemas"]["CameraName"];
@@ -2342,6 +3541,36 @@ export interface components {
             ];
         };
         /**
+         * KappaAnswer
+         * @description Cohen's kappa with its 95 % interval.
+         */
+        KappaAnswer: {
+            /**
+             * Count
+             * @description Candidates that both judged.
+             */
+            count: number;
+            /**
+             * Expected
+             * @description Share that chance would make equal.
+             */
+            expected: number | null;
+            /** High */
+            high: number | null;
+            /** Low */
+            low: number | null;
+            /**
+             * Observed
+             * @description Share of equal verdicts.
+             */
+            observed: number | null;
+            /**
+             * Value
+             * @description -1 to 1; absent where it isn't defined.
+             */
+            value: number | null;
+        };
+        /**
          * LabelOutcome
          * @description What became of a label.
          */
@@ -2377,6 +3606,43 @@ export interface components {
             gone: string[];
         };
         /**
+         * LeaseAnswer
+         * @description Who has an image open.
+         */
+        LeaseAnswer: {
+            /**
+             * Expires At
+             * Format: date-time
+             * @description Until when this page counts as present.
+             */
+            expires_at: string;
+            /** @description Who is at it; the others are to wait, or take it over. */
+            holder: components["schemas"]["Present"] | null;
+            /** Present */
+            present: components["schemas"]["Present"][];
+        };
+        /**
+         * LeaseGiven
+         * @description A page that has an image open; to be sent again every 20 s.
+         * @example {
+         *       "client_id": "1f0cc3f2-9d0e-4b4e-8a45-5d7d1e1a2b3c"
+         *     }
+         */
+        LeaseGiven: {
+            /**
+             * Client Id
+             * Format: uuid
+             * @description Of the page, made by it.
+             */
+            client_id: string;
+            /**
+             * Take Over
+             * @description Hold the image although another person does.
+             * @default false
+             */
+            take_over: boolean;
+        };
+        /**
          * LeftOutFile
          * @description A file of the upload that isn't read, and why.
          */
@@ -2385,6 +3651,17 @@ export interface components {
             file: string;
             /** Reason */
             reason: string;
+        };
+        /**
+         * LengthAgreement
+         * @description Agreement on candidates of ``low <= length < high``, px.
+         */
+        LengthAgreement: {
+            /** High */
+            high: number | null;
+            kappa: components["schemas"]["KappaAnswer"];
+            /** Low */
+            low: number;
         };
         /**
          * Limits
@@ -2548,6 +3825,132 @@ export interface components {
             tied: boolean;
         };
         /**
+         * ModelName
+         * @description Which model suggests.
+         */
+        ModelName: {
+            /** Created At */
+            created_at: string | null;
+            /**
+             * Decisions
+             * @description That it was learnt from.
+             */
+            decisions: number;
+            /**
+             * Id
+             * @description Null for the general model, as long as nothing was learnt in the dataset.
+             */
+            id: number | null;
+            /**
+             * Images
+             * @description They are on.
+             */
+            images: number;
+            /** Version */
+            version: string;
+        };
+        /**
+         * NeighbourVerdict
+         * @description What was decided on the same edge in the frame before or after.
+         */
+        NeighbourVerdict: {
+            /** From Image Id */
+            from_image_id: number;
+            /** Reason */
+            reason: ("car" | "lane_marking" | "curved" | "shadow" | "other") | null;
+            /**
+             * Segment Id
+             * @description Of the image that was asked for.
+             */
+            segment_id: number;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous" | "undecided";
+        };
+        /**
+         * OtherVerdict
+         * @description A verdict that another person gave meanwhile.
+         */
+        OtherVerdict: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Decision Id */
+            decision_id: number;
+            /** Person */
+            person: string | null;
+            /** Reason */
+            reason: ("car" | "lane_marking" | "curved" | "shadow" | "other") | null;
+            /** Segment Id */
+            segment_id: number;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous" | "undecided";
+        };
+        /**
+         * PairAgreement
+         * @description Agreement of one person's first verdicts with another's second ones.
+         */
+        PairAgreement: {
+            /** First */
+            first: string | null;
+            kappa: components["schemas"]["KappaAnswer"];
+            /** Second */
+            second: string | null;
+        };
+        /**
+         * PersonAgreement
+         * @description Agreement of one person with all others.
+         */
+        PersonAgreement: {
+            kappa: components["schemas"]["KappaAnswer"];
+            /** Person */
+            person: string | null;
+        };
+        /**
+         * PersonAnswer
+         * @description One who has images to review, or decided on some.
+         */
+        PersonAnswer: {
+            /** Assigned */
+            assigned: number;
+            /** Decisions */
+            decisions: number;
+            /**
+             * Done
+             * @description Of those assigned.
+             */
+            done: number;
+            /** Person */
+            person: string;
+        };
+        /**
+         * PersonWork
+         * @description What one person did.
+         */
+        PersonWork: {
+            /** Decisions */
+            decisions: number;
+            /**
+             * Hours
+             * @description Time that the decisions took, breaks left out, h.
+             */
+            hours: number;
+            /** Per Hour */
+            per_hour: number | null;
+            /** Person */
+            person: string | null;
+            times: components["schemas"]["DecisionTimes"];
+            /** Undone */
+            undone: number;
+        };
+        /**
          * Piece
          * @description An arc that was fitted to edge points without interruption.
          */
@@ -2598,8 +4001,31 @@ export interface components {
              * @enum {string}
              */
             outcome: "hit" | "false_alarm" | "miss" | "ignored";
+            /**
+             * Rejected As
+             * @description Why people rejected the line that a false positive is.
+             */
+            rejected_as: ("car" | "lane_marking" | "curved" | "shadow" | "other") | null;
             /** Score */
             score: number | null;
+        };
+        /**
+         * Present
+         * @description Someone who has the image open.
+         */
+        Present: {
+            /**
+             * Mine
+             * @description Whether it is you, on whatever page.
+             */
+            mine: boolean;
+            /** Person */
+            person: string | null;
+            /**
+             * Since
+             * Format: date-time
+             */
+            since: string;
         };
         /**
          * Problem
@@ -2638,6 +4064,19 @@ export interface components {
             type: string;
             /** Where */
             where?: string | null;
+        };
+        /**
+         * ReasonCount
+         * @description How many candidates are rejected for a reason.
+         */
+        ReasonCount: {
+            /** Count */
+            count: number;
+            /**
+             * Reason
+             * @enum {string}
+             */
+            reason: "car" | "lane_marking" | "curved" | "shadow" | "other";
         };
         /**
          * ReferenceDistortion
@@ -2693,6 +4132,8 @@ export interface components {
             image_id: number;
             /** Reason */
             reason: string | null;
+            /** Recall */
+            recall: ("complete" | "nearly" | "incomplete") | null;
             /**
              * Status
              * @enum {string}
@@ -2742,6 +4183,11 @@ export interface components {
             /** Reason */
             reason?: string | null;
             /**
+             * Recall
+             * @description How much of what is straight the labels hold; with `done`.
+             */
+            recall?: ("complete" | "nearly" | "incomplete") | null;
+            /**
              * Status
              * @enum {string}
              */
@@ -2772,6 +4218,27 @@ export interface components {
             image_id: number;
             /** Sent */
             sent: number;
+        };
+        /**
+         * Rules
+         * @description What is asked of annotators.
+         * @example {
+         *       "second_share": 0.1
+         *     }
+         */
+        Rules: {
+            /**
+             * Ask Recall
+             * @description Ask how complete the labels are when an image is done.
+             * @default false
+             */
+            ask_recall: boolean;
+            /**
+             * Second Share
+             * @description Of the images: reviewed blindly by a second person.
+             * @default 0
+             */
+            second_share: number;
         };
         /**
          * RunAnswer
@@ -3048,6 +4515,251 @@ export interface components {
             width: number;
         };
         /**
+         * SecondDecisionAnswer
+         * @description One row of a second review's history.
+         */
+        SecondDecisionAnswer: {
+            /** Client Id */
+            client_id: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Elapsed Ms */
+            elapsed_ms: number | null;
+            /** Group Id */
+            group_id: string;
+            /** Id */
+            id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "judge" | "undo" | "redo" | "accept";
+            /**
+             * Previous
+             * @enum {string}
+             */
+            previous: "keep" | "reject" | "ambiguous" | "undecided";
+            /** Segment Id */
+            segment_id: number;
+            /** Target Group Id */
+            target_group_id: string | null;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous" | "undecided";
+        };
+        /**
+         * SecondDecisionGiven
+         * @description One verdict on one segment. What one key press does shares a ``group_id``.
+         */
+        SecondDecisionGiven: {
+            /**
+             * Client Id
+             * Format: uuid
+             * @description Made by the client; sending the same one again changes nothing.
+             */
+            client_id: string;
+            /** Elapsed Ms */
+            elapsed_ms?: number | null;
+            /**
+             * Group Id
+             * Format: uuid
+             */
+            group_id: string;
+            /**
+             * Kind
+             * @default judge
+             * @enum {string}
+             */
+            kind: "judge" | "undo" | "redo";
+            /** Segment Id */
+            segment_id: number;
+            /** Target Group Id */
+            target_group_id?: string | null;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous" | "undecided";
+        };
+        /**
+         * SecondDecisionsGiven
+         * @description Decisions of one second review, stored together or not at all.
+         * @example {
+         *       "decisions": [
+         *         {
+         *           "client_id": "4b0f0c5e-6d8c-4f6e-9d4e-1f7f2f0a6a02",
+         *           "group_id": "7a0a2c1e-58b8-4d39-8f0e-0d5a1c4a9b12",
+         *           "segment_id": 17,
+         *           "verdict": "reject"
+         *         }
+         *       ]
+         *     }
+         */
+        SecondDecisionsGiven: {
+            /** Decisions */
+            decisions: components["schemas"]["SecondDecisionGiven"][];
+        };
+        /**
+         * SecondDecisionsStored
+         * @description What became of the decisions.
+         */
+        SecondDecisionsStored: {
+            /** Repeated */
+            repeated: number;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "open" | "done";
+            /** Stored */
+            stored: number;
+            /** @description Yours. */
+            verdicts: components["schemas"]["VerdictCounts"];
+        };
+        /**
+         * SecondHistory
+         * @description All decisions of a second review, oldest first.
+         */
+        SecondHistory: {
+            /** Decisions */
+            decisions: components["schemas"]["SecondDecisionAnswer"][];
+        };
+        /**
+         * SecondReviewAnswer
+         * @description A second review, and how far it is.
+         */
+        SecondReviewAnswer: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Done At */
+            done_at: string | null;
+            /** Id */
+            id: number;
+            /** Image Id */
+            image_id: number;
+            /** Mine */
+            mine: boolean;
+            /** Name */
+            name: string;
+            /** Person */
+            person: string | null;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "open" | "done";
+        };
+        /**
+         * SecondReviewGiven
+         * @description How far a second review is.
+         * @example {
+         *       "status": "done"
+         *     }
+         */
+        SecondReviewGiven: {
+            /**
+             * Allow Undecided
+             * @description Done although candidates are left undecided.
+             * @default false
+             */
+            allow_undecided: boolean;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "open" | "done";
+        };
+        /**
+         * SecondReviewsAnswer
+         * @description The second reviews of a dataset, and what you can begin with.
+         */
+        SecondReviewsAnswer: {
+            /**
+             * Due
+             * @description By name; at most 1,000.
+             */
+            due: components["schemas"]["DueImage"][];
+            /** Due Total */
+            due_total: number;
+            /**
+             * Reviews
+             * @description Your own first.
+             */
+            reviews: components["schemas"]["SecondReviewAnswer"][];
+            /** Share */
+            share: number;
+        };
+        /**
+         * SecondSegment
+         * @description A candidate as if nobody had judged it but you in this review.
+         */
+        SecondSegment: {
+            /**
+             * Box
+             * @description x0, y0, x1, y1 in px.
+             */
+            box: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** Id */
+            id: number;
+            /**
+             * Length
+             * @description Arc length, px.
+             */
+            length: number;
+            /** N Points */
+            n_points: number;
+            /** Residual */
+            residual: number | null;
+            /** Score */
+            score: number | null;
+            /** Straight */
+            straight: boolean;
+            /** Straightness */
+            straightness: number | null;
+            /**
+             * Verdict
+             * @description Yours, in this review.
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous" | "undecided";
+        };
+        /**
+         * SecondSegmentsAnswer
+         * @description An image's current candidates in the order of ``/images/{image_id}/points``.
+         */
+        SecondSegmentsAnswer: {
+            /** Height */
+            height: number;
+            /** Image Id */
+            image_id: number;
+            /** Revision */
+            revision: number;
+            /** Second Review Id */
+            second_review_id: number;
+            /** Segments */
+            segments: components["schemas"]["SecondSegment"][];
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "open" | "done";
+            /** Width */
+            width: number;
+        };
+        /**
          * SegmentAnswer
          * @description A candidate without its points, which ``/points`` gives in one binary answer.
          */
@@ -3078,6 +4790,11 @@ export interface components {
              * @enum {string}
              */
             origin: "pipeline" | "manual" | "import";
+            /**
+             * Reason
+             * @description Why it was rejected, where that was said.
+             */
+            reason: ("car" | "lane_marking" | "curved" | "shadow" | "other") | null;
             /**
              * Residual
              * @description RMS deviation from straight after undistortion, px.
@@ -3113,12 +4830,27 @@ export interface components {
             height: number;
             /** Image Id */
             image_id: number;
+            /**
+             * Last Decision Id
+             * @description The last decision that these verdicts follow; send it as `seen`.
+             */
+            last_decision_id: number;
             /** Revision */
             revision: number;
             /** Segments */
             segments: components["schemas"]["SegmentAnswer"][];
             /** Width */
             width: number;
+        };
+        /**
+         * Share
+         * @description How many images a person was given.
+         */
+        Share: {
+            /** Images */
+            images: number;
+            /** Person */
+            person: string;
         };
         /**
          * SplitAbilities
@@ -3424,6 +5156,38 @@ export interface components {
             ];
         };
         /**
+         * StatisticsAnswer
+         * @description A dataset's statistics.
+         */
+        StatisticsAnswer: {
+            agreement: components["schemas"]["AgreementSummary"];
+            /** Days */
+            days: components["schemas"]["DayProgress"][];
+            /** Decisions */
+            decisions: number;
+            /**
+             * Edges
+             * @description Lower ends of the bars of all histograms, ms.
+             */
+            edges: number[];
+            /** Hours */
+            hours: components["schemas"]["HourProgress"][];
+            images: components["schemas"]["ReviewCounts"];
+            /** People */
+            people: components["schemas"]["PersonWork"][];
+            /**
+             * Per Hour
+             * @description Decisions in an hour of work, all people together.
+             */
+            per_hour: number | null;
+            /** Reasons */
+            reasons: components["schemas"]["ReasonCount"][];
+            suggestions: components["schemas"]["SuggestionUse"];
+            times: components["schemas"]["DecisionTimes"];
+            /** Verdicts */
+            verdicts: components["schemas"]["VerdictTimes"][];
+        };
+        /**
          * Stratum
          * @description The lines of one kind.
          */
@@ -3580,6 +5344,56 @@ export interface components {
             total: number;
         };
         /**
+         * Suggestion
+         * @description What is suggested for one candidate.
+         */
+        Suggestion: {
+            /**
+             * Against
+             * @description Those that speak most against it.
+             */
+            against: string[];
+            /**
+             * Family
+             * @description Number of the structure that it shares with others, -1 for one alone.
+             */
+            family: number;
+            /**
+             * For
+             * @description The features that speak most for keeping.
+             */
+            for: string[];
+            /** Id */
+            id: number;
+            /**
+             * Lens
+             * @description What it would tell of the lens, if it is kept, 0 to 1.
+             */
+            lens: number;
+            /**
+             * Probability
+             * @description That a person keeps it, 0 to 1.
+             */
+            probability: number;
+            /**
+             * Value
+             * @description What a look at it is worth, 0 to 1: uncertain and long first.
+             */
+            value: number;
+        };
+        /**
+         * SuggestionUse
+         * @description What became of suggestions.
+         */
+        SuggestionUse: {
+            /** Accepted */
+            accepted: number;
+            /** Agreed */
+            agreed: number;
+            /** Shown */
+            shown: number;
+        };
+        /**
          * TableOneRow
          * @description How well the candidates did against the labels that were made of them, over one source's labelled images.
          */
@@ -3607,6 +5421,22 @@ export interface components {
             source: string | null;
         };
         /**
+         * Thresholds
+         * @description Between which probabilities a candidate is left to a person; of the model, a person may choose others.
+         */
+        Thresholds: {
+            /**
+             * Keep
+             * @description From this probability on, keeping is suggested.
+             */
+            keep: number;
+            /**
+             * Reject
+             * @description Below this probability, rejecting is suggested.
+             */
+            reject: number;
+        };
+        /**
          * ThumbnailSize
          * @description Longer side of a thumbnail, px.
          * @enum {integer}
@@ -3625,6 +5455,109 @@ export interface components {
              * @description As `clearlines token create` has printed it.
              */
             token: string;
+        };
+        /**
+         * TraceAnswer
+         * @description An edge as traced; nothing is stored.
+         */
+        TraceAnswer: {
+            /**
+             * Length
+             * @description Arc length, px.
+             */
+            length: number;
+            /**
+             * Points
+             * @description Measured points in order, px.
+             */
+            points: [
+                number,
+                number
+            ][];
+            /**
+             * Residual
+             * @description RMS deviation from straight after undistortion, px.
+             */
+            residual: number;
+        };
+        /**
+         * TraceGiven
+         * @description Two to twenty points along an edge, or a segment to extend.
+         * @example {
+         *       "points": [
+         *         [
+         *           120,
+         *           88.5
+         *         ],
+         *         [
+         *           610,
+         *           93
+         *         ]
+         *       ]
+         *     }
+         */
+        TraceGiven: {
+            /**
+             * Extend
+             * @description Follow the segment's edge beyond both ends.
+             * @default false
+             */
+            extend: boolean;
+            /**
+             * Points
+             * @description Clicked points that follow each other along the edge, px.
+             */
+            points?: [
+                number,
+                number
+            ][] | null;
+            /**
+             * Reach
+             * @description How far beside a point the edge may lie, px.
+             * @default 8
+             */
+            reach: number;
+            /**
+             * Segment Id
+             * @description A segment of the image, in place of points.
+             */
+            segment_id?: number | null;
+            /**
+             * Straight
+             * @description The line through the points as drawn, whether an edge is there or not.
+             * @default false
+             */
+            straight: boolean;
+        };
+        /**
+         * TrainingState
+         * @description What the next training waits for.
+         */
+        TrainingState: {
+            /**
+             * Asked
+             * @description Whether somebody asked for it and it isn't done yet.
+             */
+            asked: boolean;
+            /**
+             * Decisions
+             * @description Decisions that it would learn from now.
+             */
+            decisions: number;
+            /** @description Why the latest one failed. */
+            error: components["schemas"]["ErrorInfo"] | null;
+            /** Images */
+            images: number;
+            /**
+             * Least
+             * @description Decisions that it needs when somebody asks for it.
+             */
+            least: number;
+            /**
+             * Wanted
+             * @description Decisions from which on it begins by itself.
+             */
+            wanted: number;
         };
         /**
          * Updated
@@ -3697,6 +5630,18 @@ export interface components {
              * @default 0
              */
             undecided: number;
+        };
+        /**
+         * VerdictTimes
+         * @description How long it took to give a verdict.
+         */
+        VerdictTimes: {
+            times: components["schemas"]["DecisionTimes"];
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "keep" | "reject" | "ambiguous" | "undecided";
         };
         /**
          * VersionGiven
@@ -4192,6 +6137,134 @@ export interface operations {
             };
         };
     };
+    read_agreement_api_datasets__slug__agreement_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AgreementAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    assign_images_api_datasets__slug__assign_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AssignGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Assigned"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     list_cameras_api_datasets__slug__cameras_get: {
         parameters: {
             query?: never;
@@ -4244,6 +6317,92 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    add_candidates_api_datasets__slug__candidates_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_add_candidates_api_datasets__slug__candidates_post"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CandidatesImported"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4334,6 +6493,75 @@ export interface operations {
                 };
                 content: {
                     "image/png": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_differences_api_datasets__slug__differences_get: {
+        parameters: {
+            query?: {
+                /** @description Decided on since, or not yet; both when left out. */
+                adjudicated?: boolean | null;
+                /** @description At most this many. */
+                limit?: number;
+                /** @description From ``next_cursor`` of the page before. */
+                cursor?: string | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DifferencePage"];
                 };
             };
             /** @description Unauthorized */
@@ -4516,6 +6744,68 @@ export interface operations {
             };
         };
     };
+    read_guidelines_api_datasets__slug__guidelines_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GuidelinesAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     list_images_api_datasets__slug__images_get: {
         parameters: {
             query?: {
@@ -4526,6 +6816,16 @@ export interface operations {
                 prelabel?: ("none" | "queued" | "running" | "done" | "failed" | "cancelled") | null;
                 /** @description Part of the name. */
                 search?: string | null;
+                /** @description Whose task; empty: nobody's. */
+                assignee?: string | null;
+                /** @description Who decided on some candidates. */
+                person?: string | null;
+                /** @description Of at least one candidate. */
+                verdict?: ("keep" | "reject" | "ambiguous" | "undecided") | null;
+                /** @description Of at least one candidate. */
+                min_score?: number | null;
+                /** @description Of at least one candidate. */
+                max_score?: number | null;
                 sort?: "name" | "-name" | "created" | "-created" | "candidates" | "-candidates";
                 deleted?: boolean;
                 /** @description At most this many. */
@@ -4876,6 +7176,68 @@ export interface operations {
             };
         };
     };
+    list_people_api_datasets__slug__people_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PersonAnswer"][];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     restore_dataset_api_datasets__slug__restore_post: {
         parameters: {
             query?: never;
@@ -5088,6 +7450,68 @@ export interface operations {
             };
         };
     };
+    list_second_reviews_api_datasets__slug__second_reviews_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SecondReviewsAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     create_split_api_datasets__slug__splits_post: {
         parameters: {
             query?: never;
@@ -5110,6 +7534,202 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SplitAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_statistics_api_datasets__slug__statistics_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StatisticsAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_dataset_suggestions_api_datasets__slug__suggestions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DatasetSuggestions"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    train_api_datasets__slug__suggestions_train_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TrainingState"];
                 };
             };
             /** @description Unauthorized */
@@ -5554,7 +8174,10 @@ export interface operations {
     };
     read_display_api_images__image_id__display_get: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description As stored; equalised (CLAHE); or with the lens's distortion taken out, in one size. */
+                view?: "plain" | "clahe" | "undistorted";
+            };
             header?: {
                 "if-none-match"?: string | null;
             };
@@ -5572,6 +8195,364 @@ export interface operations {
                 };
                 content: {
                     "image/*": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_edits_api_images__image_id__edits_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EditsAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    edit_api_images__image_id__edits_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["EditGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EditStored"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    put_lease_api_images__image_id__lease_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LeaseGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LeaseAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    delete_lease_api_images__image_id__lease_delete: {
+        parameters: {
+            query: {
+                client_id: string;
+            };
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_neighbour_verdicts_api_images__image_id__neighbour_verdicts_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NeighbourVerdict"][];
                 };
             };
             /** @description Unauthorized */
@@ -5680,7 +8661,10 @@ export interface operations {
     };
     read_points_api_images__image_id__points_get: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Places in the image, or in its undistorted display. */
+                view?: "plain" | "undistorted";
+            };
             header?: never;
             path: {
                 image_id: number;
@@ -5816,6 +8800,78 @@ export interface operations {
             };
         };
     };
+    begin_second_review_api_images__image_id__second_review_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SecondReviewAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     read_segments_api_images__image_id__segments_get: {
         parameters: {
             query?: never;
@@ -5868,6 +8924,78 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_image_suggestions_api_images__image_id__suggestions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImageSuggestions"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5934,6 +9062,82 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    trace_api_images__image_id__trace_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TraceGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6530,6 +9734,493 @@ export interface operations {
             };
         };
     };
+    add_adjudication_api_second_reviews__second_review_id__adjudications_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                second_review_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AdjudicationGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Difference"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    delete_adjudication_api_second_reviews__second_review_id__adjudications__segment_id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                second_review_id: number;
+                segment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Difference"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_second_decisions_api_second_reviews__second_review_id__decisions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                second_review_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SecondHistory"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    decide_second_api_second_reviews__second_review_id__decisions_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                second_review_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SecondDecisionsGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SecondDecisionsStored"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    set_second_review_api_second_reviews__second_review_id__review_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                second_review_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SecondReviewGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SecondReviewAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_second_segments_api_second_reviews__second_review_id__segments_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                second_review_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SecondSegmentsAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_evidence_api_segments__segment_id__evidence_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                segment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Evidence"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     read_history_api_segments__segment_id__history_get: {
         parameters: {
             query?: never;
@@ -7081,6 +10772,78 @@ export interface operations {
             };
             /** @description Not Found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    make_ceiling_api_splits__split__ceiling_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                split: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };

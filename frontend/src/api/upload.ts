@@ -1,6 +1,7 @@
 /** Uploads. XMLHttpRequest, because fetch doesn't say how much of a request was sent. */
 
 import { apiUrl } from "./client";
+import { personHeaders } from "./person";
 import { problemFrom, unreachable } from "./problem";
 import type { UploadReport } from "./types";
 
@@ -54,6 +55,7 @@ export function sendForm<T>(path: string, form: FormData, options: SendOptions):
     request.onabort = () => reject(aborted());
     request.onloadend = () => signal.removeEventListener("abort", abort);
     request.open("POST", apiUrl(path));
+    for (const [name, value] of Object.entries(personHeaders())) request.setRequestHeader(name, value);
     request.send(form);
   });
 }

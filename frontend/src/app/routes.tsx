@@ -29,6 +29,22 @@ export function makeRouter() {
           lazy: async () => ({ Component: (await import("../pages/label/finished_page")).FinishedPage }),
         },
         {
+          path: "/datasets/:slug/suggestions",
+          lazy: async () => ({
+            Component: (await import("../pages/suggestions/suggestions_page")).SuggestionsPage,
+          }),
+        },
+        {
+          path: "/datasets/:slug/second/:imageId",
+          lazy: async () => ({ Component: (await import("../pages/second/second_page")).SecondPage }),
+        },
+        {
+          path: "/datasets/:slug/differences",
+          lazy: async () => ({
+            Component: (await import("../pages/differences/differences_page")).DifferencesPage,
+          }),
+        },
+        {
           path: "/datasets/:slug/card",
           lazy: async () => ({ Component: (await import("../pages/card/card_page")).CardPage }),
         },

@@ -63,7 +63,7 @@ export function distanceToPolyline(
 }
 
 /** The smallest box around the points first..end - 1. */
-export function boxOf(coordinates: Float32Array, first: number, end: number): Box {
+export function boxOf(coordinates: ArrayLike<number>, first: number, end: number): Box {
   let minX = Number.POSITIVE_INFINITY;
   let minY = Number.POSITIVE_INFINITY;
   let maxX = Number.NEGATIVE_INFINITY;
@@ -77,6 +77,15 @@ export function boxOf(coordinates: Float32Array, first: number, end: number): Bo
     if (y > maxY) maxY = y;
   }
   return { minX, minY, maxX, maxY };
+}
+
+/** The smallest box around some positions. */
+export function boxAround(positions: readonly Point[]): Box {
+  return boxOf(
+    positions.flatMap(({ x, y }) => [x, y]),
+    0,
+    positions.length,
+  );
 }
 
 export function boxCentre(box: Box): Point {

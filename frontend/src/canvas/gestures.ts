@@ -7,7 +7,22 @@ export interface GestureTarget {
   pan(dx: number, dy: number): void;
   /** The pointer rests or moves above the element without a button; null when it leaves. */
   hover(at: Point | null): void;
-  click(at: Point, touch: boolean): void;
+  click(at: Point, how: ClickManner): void;
+  /** What gets the drag that begins now instead of the view; null where nothing does. */
+  beginDrag(): DragTarget | null;
+}
+
+export interface ClickManner {
+  readonly touch: boolean;
+  readonly shift: boolean;
+}
+
+/** Gets one drag, from its press on. */
+export interface DragTarget {
+  down(at: Point, shift: boolean): void;
+  move(at: Point): void;
+  up(at: Point): void;
+  cancel(): void;
 }
 
 /** Movement below this is a click with an unsteady hand (px). */
@@ -41,6 +56,7 @@ function pinchSpeed({ deltaY }: WheelEvent): number {
 /** Listens on the element until the returned function is called. */
 export function listenToGestures(element: HTMLElement, target: GestureTarget): () => void {
   const fingers = new Map<number, Finger>();
+  let drag: { readonly pointerId: number; readonly target: DragTarget } | null = null;
   const controller = new AbortController();
   const options = { signal: controller.signal };
 
@@ -67,6 +83,21 @@ export function listenToGestures(element: HTMLElement, target: GestureTarget): (
     element.setPointerCapture(event.pointerId);
     const at = place(event);
     fingers.set(event.pointerId, { start: at, last: at, moved: false });
+    // Two fingers mean the view, whatever the first one began.
+    if (fingers.size > 1) endDrag();
+    else if (event.button === 0) beginDrag(event, at);
+  }
+
+  function beginDrag(event: PointerEvent, at: Point): void {
+    const begun = target.beginDrag();
+    if (begun === null) return;
+    drag = { pointerId: event.pointerId, target: begun };
+    begun.down(at, event.shiftKey);
+  }
+
+  function endDrag(): void {
+    drag?.target.cancel();
+    drag = null;
   }
 
   function onMove(event: PointerEvent): void {
@@ -74,6 +105,11 @@ export function listenToGestures(element: HTMLElement, target: GestureTarget): (
     const finger = fingers.get(event.pointerId);
     if (finger === undefined) {
       if (event.pointerType !== "touch") target.hover(at);
+      return;
+    }
+    if (drag?.pointerId === event.pointerId) {
+      finger.last = at;
+      drag.target.move(at);
       return;
     }
     if (!finger.moved && Math.hypot(at.x - finger.start.x, at.y - finger.start.y) < CLICK_SLACK) return;
@@ -96,8 +132,14 @@ export function listenToGestures(element: HTMLElement, target: GestureTarget): (
     const finger = fingers.get(event.pointerId);
     fingers.delete(event.pointerId);
     if (fingers.size === 0) element.classList.remove("is-dragging");
+    if (drag?.pointerId === event.pointerId) {
+      if (event.type === "pointerup") drag.target.up(place(event));
+      else drag.target.cancel();
+      drag = null;
+      return;
+    }
     if (finger && !finger.moved && event.type === "pointerup" && event.button === 0) {
-      target.click(place(event), event.pointerType === "touch");
+      target.click(place(event), { touch: event.pointerType === "touch", shift: event.shiftKey });
     }
   }
 

@@ -22,8 +22,8 @@ const UNREADABLE: Problem = {
 
 interface Kept {
   readonly bitmap: Promise<ImageBitmap>;
-  /** 0 until it is decoded. */
-  pixels: number;
+  /** Once it is decoded. */
+  decoded: ImageBitmap | null;
 }
 
 export class ImageLoader {
@@ -37,17 +37,22 @@ export class ImageLoader {
       this.images.set(url, known);
       return known.bitmap;
     }
-    const kept: Kept = { bitmap: fetchBitmap(url), pixels: 0 };
+    const kept: Kept = { bitmap: fetchBitmap(url), decoded: null };
     this.images.set(url, kept);
     kept.bitmap.then(
-      ({ width, height }) => {
-        kept.pixels = width * height;
+      (bitmap) => {
+        kept.decoded = bitmap;
         this.forgetOldest();
       },
       // A failure isn't remembered: the next attempt asks again.
       () => this.images.delete(url),
     );
     return kept.bitmap;
+  }
+
+  /** An image that is there already. */
+  peek(url: string): ImageBitmap | null {
+    return this.images.get(url)?.decoded ?? null;
   }
 
   /** Loads an image that may be wanted soon, unless it is so large that the shown one would have to go. */
@@ -60,7 +65,7 @@ export class ImageLoader {
     let pixels = 0;
     const latestFirst = [...this.images].reverse();
     latestFirst.forEach(([url, kept], place) => {
-      pixels += kept.pixels;
+      pixels += kept.decoded === null ? 0 : kept.decoded.width * kept.decoded.height;
       if (place > 0 && pixels > MOST_PIXELS) this.images.delete(url);
     });
   }

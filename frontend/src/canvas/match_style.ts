@@ -6,6 +6,7 @@
  * Okabe and Ito ("Color Universal Design", 2008): its hues stay apart for every kind of colour vision.
  */
 
+import type { Palette as VerdictPalette } from "./palette";
 import { COMPANION, type LineStyle } from "./style";
 
 export type MatchStyleName = "tp" | "fp" | "fn" | "ignored" | "found";
@@ -15,6 +16,11 @@ const DRAWING_ORDER: readonly MatchStyleName[] = ["ignored", "tp", "found", "fp"
 
 export const PALETTES = ["paper", "safe"] as const;
 export type Palette = (typeof PALETTES)[number];
+
+/** The palette that goes with the one chosen for verdicts. */
+export function matchPalette(verdicts: VerdictPalette): Palette {
+  return verdicts === "safe" ? "safe" : "paper";
+}
 
 const COLOURS: Readonly<Record<Palette, Readonly<Record<"tp" | "fp" | "fn", string>>>> = {
   paper: { tp: "#3cd75a", fp: "#ff4b55", fn: "#ffaa00" },

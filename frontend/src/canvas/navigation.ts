@@ -13,6 +13,7 @@ import {
   sameViewport,
   toScreen,
   type Viewport,
+  visibleBox,
   zoomAt,
 } from "./viewport";
 
@@ -51,6 +52,11 @@ export class Navigation {
 
   get current(): Viewport {
     return this.viewport;
+  }
+
+  /** The part of the image plane that is seen, or will be once a glide has come to its end. */
+  get seen(): Box {
+    return visibleBox(this.goal ?? this.viewport, this.screen);
   }
 
   /** Goes to another image, all of it. */

@@ -2,8 +2,7 @@
  * Draws the image and its lines on three canvases, at most once per display frame.
  *
  * What changed decides what is drawn: a hover touches only the highlights; a movement copies the lines'
- * bitmap; a verdict redraws the bitmap along its line; the end of a movement draws the bitmap anew, a few
- * tiles per frame.
+ * bitmap; a verdict redraws the bitmap along its line; the end of a movement has the bitmap drawn anew.
  */
 
 import { drawCompanions, drawHighlights } from "./layers/highlight_layer";
@@ -12,9 +11,11 @@ import { LineBitmap } from "./layers/line_bitmap";
 import type { LineLook } from "./layers/line_layer";
 import { drawStages } from "./layers/stage_layer";
 import { clearSurface, makeSurface, resizeSurface, type Surface, setScreenUnits } from "./layers/surface";
+import { linePainter } from "./line_painter_start";
+import type { PointerTool } from "./pointer_tool";
 import { EMPTY_SCENE, type Scene } from "./scene";
 import type { StageTrace } from "./stage_trace";
-import { CANDIDATE_STYLES, LINE_STYLES } from "./style";
+import { lineStyle } from "./style";
 import type { Size, Viewport } from "./viewport";
 
 /** How long the view must rest before the lines are drawn exactly (ms). */
@@ -36,22 +37,24 @@ export interface RendererState {
   readonly stages: StageTrace | null;
   /** Which of its gaps is pointed at. */
   readonly markedGap: number | null;
+  readonly tool: PointerTool | null;
 }
 
 /** The parts of the picture that a change touches. */
-export type Change = "view" | "image" | "scene" | "lines" | "highlights";
+export type Change = "view" | "image" | "scene" | "lines" | "picture" | "highlights";
 
 const START: RendererState = {
   image: null,
   imageSize: { width: 1, height: 1 },
   scene: EMPTY_SCENE,
-  look: { styles: CANDIDATE_STYLES, style: () => LINE_STYLES.undecided, visible: () => true },
+  look: { styles: [lineStyle("undecided")], style: () => lineStyle("undecided"), visible: () => true },
   viewport: { scale: 1, offsetX: 0, offsetY: 0 },
   selected: null,
   hovered: null,
   companions: [],
   stages: null,
   markedGap: null,
+  tool: null,
 };
 
 export class Renderer {
@@ -62,7 +65,7 @@ export class Renderer {
   private restTimer: ReturnType<typeof setTimeout> | null = null;
   private readonly changed = new Set<Change>();
   private readonly changedLines = new Set<number>();
-  private readonly bitmap = new LineBitmap();
+  private readonly bitmap: LineBitmap;
   private readonly imageSurface: Surface;
   private readonly lineSurface: Surface;
   private readonly highlightSurface: Surface;
@@ -77,6 +80,10 @@ export class Renderer {
     onPainted: (complete: boolean) => void,
   ) {
     this.onPainted = onPainted;
+    this.bitmap = new LineBitmap(linePainter, (indices) => {
+      for (const index of indices) this.changedLines.add(index);
+      this.update({}, "picture");
+    });
     this.imageSurface = makeSurface(image);
     this.lineSurface = makeSurface(lines);
     this.highlightSurface = makeSurface(highlights);
@@ -98,6 +105,7 @@ export class Renderer {
   resize(screen: Size, ratio: number): void {
     this.screen = screen;
     this.ratio = ratio;
+    linePainter.setScreen(screen, ratio);
     for (const surface of [this.imageSurface, this.lineSurface, this.highlightSurface]) {
       resizeSurface(surface, screen, ratio);
     }
@@ -128,7 +136,6 @@ export class Renderer {
     }
     if (this.drawLines(changed)) this.bitmap.copyTo(this.lineSurface, viewport, this.ratio);
     this.drawHighlights();
-    if (this.bitmap.drawing) this.schedule();
     this.tellPainted();
   }
 
@@ -141,7 +148,7 @@ export class Renderer {
     this.onPainted(drawn);
   }
 
-  /** Brings the bitmap up to date as far as one frame allows; true where the screen has to follow. */
+  /** Brings the bitmap up to date; true where the screen has to follow. */
   private drawLines(changed: ReadonlySet<Change>): boolean {
     const { scene, look, viewport } = this.state;
     const moved = changed.has("view");
@@ -149,10 +156,8 @@ export class Renderer {
     if (changed.has("scene")) this.bitmap.reset();
     const redrawn = this.redrawChanged();
     const anew = changed.has("scene") || changed.has("lines") || redrawn === "too many";
-    if (anew) this.bitmap.start(scene, viewport, this.screen, this.ratio);
-    const drawing = this.bitmap.drawing;
-    if (drawing) this.bitmap.drawTiles(scene, look);
-    return moved || anew || drawing || redrawn === "redrawn";
+    if (anew) this.bitmap.start({ scene, look, viewport, screen: this.screen, ratio: this.ratio });
+    return moved || anew || changed.has("picture") || redrawn === "redrawn";
   }
 
   private redrawChanged(): "nothing" | "redrawn" | "too many" {
@@ -160,10 +165,8 @@ export class Renderer {
     const indices = [...this.changedLines];
     this.changedLines.clear();
     if (indices.length === 0) return "nothing";
-    // A drawing under way may have passed these lines already.
     if (indices.length > MOST_REDRAWN) return "too many";
     this.bitmap.redraw(indices, scene, look);
-    if (this.bitmap.drawing) this.changed.add("lines");
     return "redrawn";
   }
 
@@ -172,7 +175,8 @@ export class Renderer {
     if (this.restTimer !== null) clearTimeout(this.restTimer);
     this.restTimer = setTimeout(() => {
       this.restTimer = null;
-      this.update({}, "lines");
+      const drawn = this.bitmap.isDrawnFor(this.state.viewport, this.screen, this.ratio);
+      if (!drawn) this.update({}, "lines");
     }, REST);
   }
 
@@ -189,5 +193,6 @@ export class Renderer {
       drawStages(context, trace, viewport, markedGap);
     }
     drawCompanions(context, scene, viewport, companions);
+    this.state.tool?.draw?.(context, viewport);
   }
 }

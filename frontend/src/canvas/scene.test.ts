@@ -38,16 +38,16 @@ describe("pointing at candidates", () => {
   });
 });
 
-describe("levels of detail", () => {
-  it("are made twice per power of two", () => {
-    expect(scene.atScale(1.5)).toBe(scene.atScale(1.9));
-    expect(scene.atScale(1.3)).not.toBe(scene.atScale(1.5));
-    expect(scene.atScale(1.9)).not.toBe(scene.atScale(2.1));
+describe("what lies in a box", () => {
+  it.each([
+    [{ minX: -1, minY: -1, maxX: 101, maxY: 11 }, [0, 1]],
+    [{ minX: -1, minY: -1, maxX: 60, maxY: 5 }, [0]],
+    [{ minX: 60, minY: -1, maxX: 200, maxY: 5 }, []],
+  ])("is at least half inside: %o", (box, expected) => {
+    expect(scene.inBox(box, all).sort()).toEqual(expected);
   });
 
-  it("have each polyline with its ends", () => {
-    const { offsets, coordinates } = scene.atScale(0.5);
-    expect([...offsets]).toEqual([0, 2, 4, 6]);
-    expect([...coordinates.slice(0, 4)]).toEqual([0, 0, 100, 0]);
+  it("is passed over where it is hidden", () => {
+    expect(scene.inBox({ minX: -1, minY: -1, maxX: 101, maxY: 11 }, (index) => index === 1)).toEqual([1]);
   });
 });

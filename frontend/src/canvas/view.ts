@@ -1,12 +1,14 @@
 /** One image on the screen: navigation, gestures and drawing together, without any framework. */
 
 import type { Point } from "./geometry";
-import { listenToGestures } from "./gestures";
+import { type ClickManner, listenToGestures } from "./gestures";
 import type { LineLook } from "./layers/line_layer";
 import { Navigation } from "./navigation";
+import type { PointerTool } from "./pointer_tool";
 import { Renderer } from "./renderer";
 import { EMPTY_SCENE, type Hit, type Scene } from "./scene";
 import type { StageTrace } from "./stage_trace";
+import { ToolHand } from "./tool_hand";
 import { type Size, toImage, type Viewport } from "./viewport";
 
 /** How far from a line a pointer still means it (screen px). */
@@ -18,8 +20,11 @@ const SAME_PLACE = 3;
 export interface ViewListener {
   /** The line under the pointer, and where on the screen the pointer is. */
   hover(index: number | null, screen: Point | null): void;
-  /** Lines at the clicked place, nearest first; `again` where the click before was there too. */
-  click(hits: readonly Hit[], again: boolean): void;
+  /**
+   * Lines at the clicked place, nearest first; `again` where the click before was there too, `shift` where the key
+   * was held.
+   */
+  click(hits: readonly Hit[], again: boolean, shift: boolean): void;
   /** The view moved, by hand or by itself, but not along with another one. */
   viewChanged(viewport: Viewport): void;
   /** Image and lines are on the screen, or aren't any more because others were opened. */
@@ -45,6 +50,8 @@ export class CanvasView {
   private hovered: number | null = null;
   private selected: number | null = null;
   private lastClick: Point | null = null;
+  private readonly watchers = new Set<() => void>();
+  private readonly hand: ToolHand;
 
   constructor(host: HTMLElement, canvases: ViewCanvases, listener: ViewListener) {
     this.host = host;
@@ -56,6 +63,13 @@ export class CanvasView {
       },
       moved: (viewport, mirrored) => this.moved(viewport, mirrored),
     });
+    this.hand = new ToolHand({
+      imagePoint: (screen) => this.imagePoint(screen),
+      show: (tool) => {
+        host.style.cursor = tool?.cursor ?? "";
+        this.renderer.update({ tool }, "highlights");
+      },
+    });
     this.stopGestures = listenToGestures(host, {
       zoom: (position, factor) => {
         this.navigation.zoom(position, factor);
@@ -63,7 +77,8 @@ export class CanvasView {
       },
       pan: (dx, dy) => this.navigation.pan(dx, dy),
       hover: (position) => this.hover(position),
-      click: (position, touch) => this.click(position, touch ? TOUCH_REACH : MOUSE_REACH),
+      click: (position, how) => this.click(position, how),
+      beginDrag: () => this.hand.begin(),
     });
     this.resizes = new ResizeObserver(() => this.resize());
     this.resizes.observe(host);
@@ -81,6 +96,7 @@ export class CanvasView {
 
   /** Shows another image, fitted; its bitmap may come later. */
   open(imageSize: Size): void {
+    this.cancelDrag();
     this.scene = EMPTY_SCENE;
     this.hovered = null;
     this.selected = null;
@@ -130,6 +146,47 @@ export class CanvasView {
     this.renderer.update({ stages, markedGap: marked }, "highlights");
   }
 
+  /** What drags do from now on; null: they move the view. A drag under way ends with the tool it began with. */
+  setTool(tool: PointerTool | null): void {
+    if (this.hand.take(tool) && tool !== null) this.hoverLine(null, null);
+  }
+
+  /** Ends a tool's drag as if it had never begun; false where there is none. */
+  cancelDrag(): boolean {
+    return this.hand.cancel();
+  }
+
+  /** Visible lines that a straight stroke between image positions touches; the radius is in screen px. */
+  linesAlong(from: Point, to: Point, radius: number): number[] {
+    return this.scene.along(from, to, radius / this.navigation.current.scale, this.visible);
+  }
+
+  /** Visible lines within a radius (screen px) of an image position, nearest first. */
+  linesNear({ x, y }: Point, radius: number): Hit[] {
+    return this.scene.near(x, y, radius / this.navigation.current.scale, this.visible);
+  }
+
+  /** Visible lines that a closed polygon of image positions goes around, by one half at least. */
+  linesWithin(polygon: readonly Point[]): number[] {
+    return this.scene.within(polygon, this.visible);
+  }
+
+  /** Visible lines of which at least one half is on the screen. */
+  linesOnScreen(): number[] {
+    return this.scene.inBox(this.navigation.seen, this.visible);
+  }
+
+  /** Draws the tool again in the next frame. */
+  redrawTool(): void {
+    this.renderer.update({}, "highlights");
+  }
+
+  /** Calls back whenever the view moves, until the returned function is called. */
+  watchMoves(watcher: () => void): () => void {
+    this.watchers.add(watcher);
+    return () => this.watchers.delete(watcher);
+  }
+
   get current(): Viewport {
     return this.navigation.current;
   }
@@ -170,11 +227,19 @@ export class CanvasView {
     if (this.hovered !== null) this.hover(null);
     this.renderer.update({ viewport }, "view");
     if (!mirrored) this.listener.viewChanged(viewport);
+    for (const watcher of this.watchers) watcher();
+  }
+
+  private imagePoint({ x, y }: Point): Point {
+    return toImage(this.navigation.current, x, y);
   }
 
   private hover(position: Point | null): void {
-    const hit = position === null ? undefined : this.hits(position, MOUSE_REACH)[0];
-    const index = hit?.index ?? null;
+    if (this.hand.hover(position)) return;
+    this.hoverLine(position === null ? null : (this.hits(position, MOUSE_REACH)[0]?.index ?? null), position);
+  }
+
+  private hoverLine(index: number | null, position: Point | null): void {
     if (index !== this.hovered) {
       this.hovered = index;
       this.renderer.update({ hovered: index }, "highlights");
@@ -182,17 +247,15 @@ export class CanvasView {
     this.listener.hover(index, position);
   }
 
-  private click(position: Point, reach: number): void {
+  private click(position: Point, { touch, shift }: ClickManner): void {
     const last = this.lastClick;
     const again = last !== null && Math.hypot(position.x - last.x, position.y - last.y) <= SAME_PLACE;
     this.lastClick = position;
-    this.listener.click(this.hits(position, reach), again);
+    this.listener.click(this.hits(position, touch ? TOUCH_REACH : MOUSE_REACH), again, shift);
   }
 
   private hits(position: Point, reach: number): Hit[] {
-    const viewport = this.navigation.current;
-    const { x, y } = toImage(viewport, position.x, position.y);
-    return this.scene.near(x, y, reach / viewport.scale, this.visible);
+    return this.linesNear(this.imagePoint(position), reach);
   }
 
   /** A window on another screen has other pixels in the same size. */

@@ -30,7 +30,7 @@ interface IconButtonProps extends Omit<ButtonProps, "children" | "icon"> {
   icon: IconName;
   label: string;
   keys?: string[];
-  side?: "down" | "up" | "end";
+  side?: "down" | "up" | "end" | "after";
 }
 
 /** A button of an icon alone: the label is its accessible name and its tooltip. */

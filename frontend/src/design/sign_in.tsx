@@ -3,9 +3,11 @@ import { type FormEvent, useState } from "react";
 import { signIn, signOut } from "../api/board_endpoints";
 import { meQuery } from "../api/board_queries";
 import type { Me } from "../api/board_types";
+import { chosenPerson } from "../api/person";
 import { asProblem } from "../api/problem";
 import { Button } from "./button";
 import { sentence } from "./format";
+import { PersonForm } from "./person_form";
 import { Popover } from "./popover";
 import "./sign_in.css";
 
@@ -23,19 +25,20 @@ export function SignIn() {
   if (!me.data) return null;
   const { name, role, anonymous } = me.data;
   const invited = anonymous && role === "reader";
-  const label = anonymous ? (invited ? "Sign in" : `Not signed in, ${role}`) : `${name}, ${role}`;
+  const local = anonymous && role === "owner";
+  const chosen = local ? chosenPerson() : null;
+  const label = anonymous ? (invited ? "Sign in" : (chosen ?? `Not signed in, ${role}`)) : `${name}, ${role}`;
   return (
-    <Popover label={label} icon="person" iconOnly={!invited} tone="quiet">
+    <Popover label={label} icon="person" iconOnly={!invited && chosen === null} tone="quiet">
       {(close) => (
         <div className="sign-in">
           <p className="sign-in__who">
-            <strong>{anonymous ? "Not signed in" : name}</strong>
+            <strong>{anonymous ? (chosen ?? "Not signed in") : name}</strong>
             <span className="badge">{role}</span>
           </p>
+          {local ? <PersonForm close={close} /> : null}
           <p className="muted">
-            {anonymous && role === "owner"
-              ? "On this computer everything is allowed without a token."
-              : MAY[role]}
+            {local ? "On this computer everything is allowed without a token." : MAY[role]}
           </p>
           {anonymous ? <TokenForm close={close} /> : <SignOut close={close} />}
         </div>

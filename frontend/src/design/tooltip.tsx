@@ -4,7 +4,7 @@ import { Keys } from "./kbd";
 interface TooltipProps {
   text: string;
   keys?: string[] | undefined;
-  side?: "down" | "up" | "end" | undefined;
+  side?: "down" | "up" | "end" | "after" | undefined;
   children: ReactNode;
 }
 

@@ -18,13 +18,18 @@ interface ImageCanvasProps extends Size {
   viewRef: RefObject<CanvasView | null>;
   regionRef: RefObject<HTMLElement | null>;
   className?: string;
+  /** CSS filter of the pixels, lines left alone. */
+  filter?: string;
   /** Accessible name. */
   label: string;
   /** Id of the text that says what is selected. */
   describedBy: string;
   onHover: (place: PointerPlace | null) => void;
-  /** Hears of lines at the clicked place, nearest first; `again` where the click before was there too. */
-  onClick: (hits: readonly Hit[], again: boolean) => void;
+  /**
+   * Hears of lines at the clicked place, nearest first; `again` where the click before was there too, `shift` where
+   * the key was held.
+   */
+  onClick: (hits: readonly Hit[], again: boolean, shift: boolean) => void;
   onViewport: (viewport: Viewport) => void;
   children?: ReactNode;
 }
@@ -34,7 +39,8 @@ interface ImageCanvasProps extends Size {
  * reaches it before the next frame, so that image and panel never belong to different images.
  */
 export function ImageCanvas(props: ImageCanvasProps) {
-  const { imageKey, width, height, bitmap, scene, viewRef, regionRef, className, label, children } = props;
+  const { imageKey, width, height, bitmap, scene, viewRef, regionRef, className, label, filter, children } =
+    props;
   const imageCanvas = useRef<HTMLCanvasElement>(null);
   const lineCanvas = useRef<HTMLCanvasElement>(null);
   const highlightCanvas = useRef<HTMLCanvasElement>(null);
@@ -53,7 +59,7 @@ export function ImageCanvas(props: ImageCanvasProps) {
       { image, lines, highlights },
       {
         hover: (index, screen) => latest.current.onHover(screen === null ? null : { index, screen }),
-        click: (hits, again) => latest.current.onClick(hits, again),
+        click: (hits, again, shift) => latest.current.onClick(hits, again, shift),
         viewChanged: (viewport) => latest.current.onViewport(viewport),
         painted: (complete) => setPainted(complete ? opened.current : null),
       },
@@ -91,7 +97,7 @@ export function ImageCanvas(props: ImageCanvasProps) {
       // biome-ignore lint/a11y/noNoninteractiveTabindex: the image is operated by keys, as an application region
       tabIndex={0}
     >
-      <canvas ref={imageCanvas} />
+      <canvas ref={imageCanvas} style={filter === undefined ? undefined : { filter }} />
       <canvas ref={lineCanvas} />
       <canvas ref={highlightCanvas} />
       {children}

@@ -18,26 +18,28 @@ export function KeyList<Actions>({ commands, groups, onClose }: KeyListProps<Act
         <h2>Keys</h2>
         <IconButton small icon="cross" label="Close" keys={["?"]} side="end" onClick={onClose} />
       </header>
-      <div className="key-list__groups">
-        {groups.map((group) => (
-          <div key={group}>
-            <h3>{group}</h3>
+      <div className="key-list__scroll">
+        <div className="key-list__groups">
+          {groups.map((group) => (
+            <div key={group}>
+              <h3>{group}</h3>
+              <dl>
+                {commands
+                  .filter((command) => command.group === group)
+                  .map((command) => (
+                    <KeyRow key={command.id} command={command} />
+                  ))}
+              </dl>
+            </div>
+          ))}
+          <div>
+            <h3>Mouse and touch</h3>
             <dl>
-              {commands
-                .filter((command) => command.group === group)
-                .map((command) => (
-                  <KeyRow key={command.id} command={command} />
-                ))}
+              <TextRow what="Select; again: the next one there" how="Click" />
+              <TextRow what="Move the image" how="Drag" />
+              <TextRow what="Zoom at the pointer" how="Wheel, pinch" />
             </dl>
           </div>
-        ))}
-        <div>
-          <h3>Mouse and touch</h3>
-          <dl>
-            <TextRow what="Select; again: the next one there" how="Click" />
-            <TextRow what="Move the image" how="Drag" />
-            <TextRow what="Zoom at the pointer" how="Wheel, pinch" />
-          </dl>
         </div>
       </div>
     </section>
@@ -50,13 +52,18 @@ function KeyRow<Actions>({ command }: { command: Command<Actions> }) {
       <dt>{command.label}</dt>
       <dd>
         {command.keys
-          .filter((key) => !key.startsWith("Ctrl") && key !== "=")
+          .filter((key, place) => place === 0 || isOfItsOwn(key, command.keys))
           .map((key) => (
             <Keys key={key} keys={keyCaps(key)} />
           ))}
       </dd>
     </div>
   );
+}
+
+/** Not what one presses for the same by habit, or with Shift by accident. */
+function isOfItsOwn(key: string, keys: readonly string[]): boolean {
+  return !key.startsWith("Ctrl") && key !== "=" && key !== `Shift+${keys[0]}`;
 }
 
 function TextRow({ what, how }: { what: string; how: string }) {

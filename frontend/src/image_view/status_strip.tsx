@@ -1,3 +1,4 @@
+import type { ReactNode } from "react";
 import { IconButton } from "../design/button";
 import { Keys } from "../design/kbd";
 import type { ImagePageActions, ViewActions } from "./commands";
@@ -7,14 +8,17 @@ export type KeyHint = readonly [key: string, what: string];
 
 interface StatusStripProps {
   hints: readonly KeyHint[];
+  /** Comes before the keys. */
+  tip?: ReactNode;
   scale: number;
   actions: ViewActions & ImagePageActions;
 }
 
 /** The keys one needs most, and the zoom, below the image. */
-export function StatusStrip({ hints, scale, actions }: StatusStripProps) {
+export function StatusStrip({ hints, tip, scale, actions }: StatusStripProps) {
   return (
     <div className="status-strip">
+      {tip}
       <ul className="status-strip__hints">
         {hints.map(([key, what]) => (
           <li key={key}>

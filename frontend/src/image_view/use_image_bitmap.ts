@@ -20,12 +20,16 @@ export interface BitmapState {
 export function useImageBitmap(url: string | null, { width, height }: Size): BitmapState {
   const [loaded, setLoaded] = useState<LoadedBitmap | null>(null);
   const [attempt, setAttempt] = useState(0);
+  const ready = url === null || loaded?.url === url ? null : readyBitmap(url, { width, height });
+  // In this very rendering: what is there already is shown with everything else of the image.
+  if (ready !== null) setLoaded(ready);
   // biome-ignore lint/correctness/useExhaustiveDependencies: another attempt loads the same image again
   useEffect(() => {
     if (url === null) return;
     let wanted = true;
     const finish = (result: Omit<LoadedBitmap, "url">) => {
-      if (wanted) setLoaded({ url, ...result });
+      const next = { url, ...result };
+      if (wanted) setLoaded((before) => (sameResult(before, next) ? before : next));
     };
     imageLoader
       .load(url)
@@ -47,4 +51,15 @@ export function useImageBitmap(url: string | null, { width, height }: Size): Bit
       setAttempt((count) => count + 1);
     },
   };
+}
+
+function readyBitmap(url: string, { width, height }: Size): LoadedBitmap | null {
+  const bitmap = imageLoader.peek(url);
+  // One of another size is an error, which the loading tells.
+  if (bitmap === null || bitmap.width !== width || bitmap.height !== height) return null;
+  return { url, bitmap, error: null };
+}
+
+function sameResult(a: LoadedBitmap | null, b: LoadedBitmap): boolean {
+  return a !== null && a.url === b.url && a.bitmap === b.bitmap && a.error === b.error;
 }

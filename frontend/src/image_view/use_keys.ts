@@ -2,7 +2,8 @@ import { type RefObject, useEffect } from "react";
 import { commandFor, type Keymap } from "./keymap";
 
 const IMAGE = ".image-canvas";
-const TYPING = 'input:not([type="radio"], [type="checkbox"]), textarea, select, [contenteditable]';
+const TYPING =
+  'input:not([type="radio"], [type="checkbox"], [type="range"]), textarea, select, [contenteditable]';
 
 /** Keys act wherever nothing is being typed; Tab, Enter and arrows only while the image has the focus. */
 export function useKeys<Actions>(keymap: Keymap<Actions>, actions: Actions): void {

@@ -3,6 +3,7 @@ import type { NewDecision, StoredDecision, Verdict } from "../api/types";
 import { caughtUp } from "./catch_up";
 import { NO_HISTORY } from "./history";
 import { type LabelState, SHOW_ALL } from "./label_state";
+import { NOT_SUGGESTING } from "./suggestions/suggestions";
 import { candidate } from "./test_candidates";
 import { countVerdicts } from "./verdicts";
 
@@ -13,11 +14,14 @@ function stateWith(verdicts: Verdict[]): LabelState {
   return {
     candidates,
     verdicts,
+    reasons: verdicts.map(() => null),
     counts: countVerdicts(verdicts),
     sequence: [0, 1, 2],
     order: "position",
     selected: null,
+    selection: [],
     shown: SHOW_ALL,
+    suggesting: NOT_SUGGESTING,
     history: NO_HISTORY,
     followRequest: 0,
   };
@@ -38,6 +42,8 @@ const stored = (id: string, segment: number, verdict: Verdict, previous: Verdict
   previous,
   target_group_id: null,
   elapsed_ms: null,
+  reason: null,
+  suggestion: null,
   person: null,
   created_at: "2025-01-01T00:00:00Z",
 });
@@ -69,7 +75,9 @@ describe("decisions made elsewhere", () => {
     );
     expect(caught.verdicts[0]).toBe("reject");
     expect(caught.changed).toEqual([]);
-    expect(caught.history.done.at(-1)?.changes).toEqual([{ segmentId: 1, from: "keep", to: "reject" }]);
+    expect(caught.history.done.at(-1)?.changes).toEqual([
+      { segmentId: 1, from: "keep", to: "reject", reasons: { from: null, to: null } },
+    ]);
   });
 
   it("count once where the server knows an unsent one already", () => {

@@ -9,9 +9,21 @@ import {
   type ViewActions,
 } from "../image_view/commands";
 import { keymapOf } from "../image_view/keymap";
+import { PAGES_COMMANDS, type PagesActions } from "./commands_pages";
+import { TOOL_COMMANDS, type ToolActions } from "./commands_tools";
+import { DRAWING_COMMANDS, type DrawingActions } from "./drawing/commands_drawing";
+import { SUGGESTION_COMMANDS, type SuggestionActions } from "./suggestions/commands_suggestions";
+import { VIEWS_COMMANDS, type ViewsActions } from "./views/commands_views";
 
 /** What commands act on; the page provides it. */
-export interface LabelActions extends ViewActions, ImagePageActions {
+export interface LabelActions
+  extends ViewActions,
+    ImagePageActions,
+    ViewsActions,
+    ToolActions,
+    DrawingActions,
+    SuggestionActions,
+    PagesActions {
   step(direction: 1 | -1): void;
   judge(verdict: Verdict): void;
   undo(): void;
@@ -25,7 +37,7 @@ export interface LabelActions extends ViewActions, ImagePageActions {
   stepJoin(direction: 1 | -1): void;
 }
 
-export const COMMAND_GROUPS = ["Judge", "Move", "View", "Image"] as const;
+export const COMMAND_GROUPS = ["Judge", "Many", "Reject because", "Draw", "Move", "View", "Image"] as const;
 
 export const COMMANDS: readonly Command<LabelActions>[] = [
   { id: "keep", keys: ["K"], label: "Keep", group: "Judge", run: (a) => a.judge("keep") },
@@ -45,6 +57,7 @@ export const COMMANDS: readonly Command<LabelActions>[] = [
     group: "Judge",
     run: (a) => a.rejectUndecided(),
   },
+  ...SUGGESTION_COMMANDS,
   { id: "undo", keys: ["Z", "Ctrl+Z"], label: "Undo", group: "Judge", repeats: true, run: (a) => a.undo() },
   {
     id: "redo",
@@ -98,6 +111,9 @@ export const COMMANDS: readonly Command<LabelActions>[] = [
     run: (a) => a.stepJoin(-1),
   },
   ...VIEW_COMMANDS,
+  ...VIEWS_COMMANDS,
+  ...TOOL_COMMANDS,
+  ...DRAWING_COMMANDS,
   {
     id: "finish",
     keys: ["Enter"],
@@ -114,6 +130,7 @@ export const COMMANDS: readonly Command<LabelActions>[] = [
     run: (a) => a.discard(),
   },
   ...IMAGE_PAGE_COMMANDS,
+  ...PAGES_COMMANDS,
 ];
 
 export const KEYMAP = keymapOf(COMMANDS);

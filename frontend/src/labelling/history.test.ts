@@ -2,7 +2,9 @@ import { describe, expect, it } from "vitest";
 import type { DecisionKind, Verdict } from "../api/types";
 import { asRecorded, describeReplay, NO_HISTORY, pushed, rebuildHistory, redone, undone } from "./history";
 
-const group = (id: string) => ({ id, changes: [{ segmentId: 1, from: "undecided", to: "keep" }] }) as const;
+const NO_REASONS = { from: null, to: null };
+const CHANGE = { segmentId: 1, from: "undecided", to: "keep", reasons: NO_REASONS } as const;
+const group = (id: string) => ({ id, changes: [CHANGE] });
 const ids = (groups: readonly { id: string }[]) => groups.map(({ id }) => id);
 const all = () => true;
 
@@ -19,7 +21,12 @@ function recorded(kind: DecisionKind, groupId: string, segment: number, target: 
 }
 
 describe("what was undone is said", () => {
-  const change = (to: "keep" | "undecided") => ({ segmentId: 1, from: "reject" as const, to });
+  const change = (to: "keep" | "undecided") => ({
+    segmentId: 1,
+    from: "reject" as const,
+    to,
+    reasons: NO_REASONS,
+  });
 
   it("with its verdict and its extent", () => {
     expect(describeReplay("undo", { id: "a", changes: [change("keep")] })).toBe("Undone: keep");
@@ -94,7 +101,7 @@ describe("history rebuilt from the server's decisions", () => {
       [recorded("judge", "a", 1), recorded("judge", "b", 2), recorded("judge", "b", 3)],
       (segment) => segment === 3,
     );
-    expect(history.done).toEqual([{ id: "b", changes: [{ segmentId: 3, from: "undecided", to: "keep" }] }]);
+    expect(history.done).toEqual([{ id: "b", changes: [{ ...CHANGE, segmentId: 3 }] }]);
   });
 });
 
@@ -106,7 +113,7 @@ describe("decisions that the server doesn't have yet", () => {
         { ...decision, verdict: "reject" },
         { ...decision, verdict: "keep" },
       ],
-      () => "ambiguous",
+      () => ({ verdict: "ambiguous", reason: null }),
     );
     expect(list.map(({ previous }) => previous)).toEqual(["ambiguous", "reject"]);
   });

@@ -5,12 +5,14 @@
  * across reloads and never reaches into another image.
  */
 
-import type { NewDecision, StoredDecision, Verdict } from "../api/types";
+import type { NewDecision, RejectReason, StoredDecision, Verdict } from "../api/types";
 
 export interface VerdictChange {
   readonly segmentId: number;
   readonly from: Verdict;
   readonly to: Verdict;
+  /** Why it was rejected before, and why it is now; null for every other verdict, or where nobody said. */
+  readonly reasons: { readonly from: RejectReason | null; readonly to: RejectReason | null };
 }
 
 export interface ChangeGroup {
@@ -48,7 +50,13 @@ export function redone(history: History, id = history.undone.at(-1)?.id): Histor
 type Recorded = Pick<StoredDecision, "segment_id" | "verdict" | "previous" | "group_id"> & {
   kind: StoredDecision["kind"];
   target_group_id?: string | null;
+  reason?: RejectReason | null;
+  /** Where it isn't given, the reason follows from the decisions before. */
+  previous_reason?: RejectReason | null;
 };
+
+/** Kinds that a person undoes; what was carried or imported came with the candidates. */
+const UNDOABLE: readonly string[] = ["judge", "accept", "take_over"];
 
 /**
  * The two stacks after a list of decisions, oldest first.
@@ -61,8 +69,12 @@ export function rebuildHistory(
 ): History {
   let history = NO_HISTORY;
   const moved = new Set<string>();
+  const reasons = new Map<number, RejectReason | null>();
   for (const decision of decisions) {
-    if (decision.kind === "judge") history = appended(history, decision);
+    const { segment_id: segmentId, reason = null } = decision;
+    const before = decision.previous_reason ?? reasons.get(segmentId) ?? null;
+    reasons.set(segmentId, reason);
+    if (UNDOABLE.includes(decision.kind)) history = appended(history, decision, { from: before, to: reason });
     else if ((decision.kind === "undo" || decision.kind === "redo") && !moved.has(decision.group_id)) {
       moved.add(decision.group_id);
       const move = decision.kind === "undo" ? undone : redone;
@@ -72,8 +84,8 @@ export function rebuildHistory(
   return { done: withCurrent(history.done, isCurrent), undone: withCurrent(history.undone, isCurrent) };
 }
 
-function appended(history: History, decision: Recorded): History {
-  const change = { segmentId: decision.segment_id, from: decision.previous, to: decision.verdict };
+function appended(history: History, decision: Recorded, reasons: VerdictChange["reasons"]): History {
+  const change = { segmentId: decision.segment_id, from: decision.previous, to: decision.verdict, reasons };
   const last = history.done.at(-1);
   if (last?.id !== decision.group_id) return pushed(history, { id: decision.group_id, changes: [change] });
   const longer = { id: last.id, changes: [...last.changes, change] };
@@ -86,16 +98,24 @@ function withCurrent(groups: readonly ChangeGroup[], isCurrent: (id: number) => 
     .filter((group) => group.changes.length > 0);
 }
 
+/** A candidate's verdict, with the reason of a rejection. */
+export interface Judgement {
+  readonly verdict: Verdict;
+  readonly reason: RejectReason | null;
+}
+
+export const UNDECIDED: Judgement = { verdict: "undecided", reason: null };
+
 /** Decisions known here only, in the form of the server's list: each one's `previous` is what stood before. */
 export function asRecorded(
   decisions: readonly NewDecision[],
-  verdictOf: (segmentId: number) => Verdict,
+  judgementOf: (segmentId: number) => Judgement,
 ): Recorded[] {
-  const current = new Map<number, Verdict>();
+  const current = new Map<number, Judgement>();
   return decisions.map((decision) => {
-    const previous = current.get(decision.segment_id) ?? verdictOf(decision.segment_id);
-    current.set(decision.segment_id, decision.verdict);
-    return { ...decision, previous };
+    const before = current.get(decision.segment_id) ?? judgementOf(decision.segment_id);
+    current.set(decision.segment_id, { verdict: decision.verdict, reason: decision.reason ?? null });
+    return { ...decision, previous: before.verdict, previous_reason: before.reason };
   });
 }
 

@@ -18,6 +18,7 @@ beforeEach(() => {
   store = new LabelStore({
     candidates,
     verdicts: candidates.map(() => "undecided"),
+    reasons: candidates.map(() => null),
     history: NO_HISTORY,
     imageHeight: 100,
     order: "position",
@@ -55,6 +56,12 @@ describe("judging", () => {
     ]);
     expect(store.getState().selected).toBe(1);
     expect(store.getState().counts).toEqual({ undecided: 3, keep: 1, reject: 0, ambiguous: 0 });
+  });
+
+  it("tells the time of a key press once, however many it judges", () => {
+    time = 900;
+    store.judge([0, 1, 2], "reject");
+    expect(recorded.map((entry) => entry.elapsed_ms)).toEqual([900, null, null]);
   });
 
   it("passes over what is judged already", () => {

@@ -1,16 +1,28 @@
 /** The state of one image under review, and everything that can be done to it. */
 
-import type { NewDecision, SegmentFacts, StoredDecision, Verdict } from "../api/types";
+import type { NewDecision, RejectReason, SegmentFacts, StoredDecision, Verdict } from "../api/types";
 import { type CaughtUp, caughtUp } from "./catch_up";
 import { type ChangeGroup, type History, pushed, redone, undone, type VerdictChange } from "./history";
+import {
+  type Act,
+  changed,
+  changeOf,
+  decisionsOf,
+  type Given,
+  isChange,
+  type JudgeOptions,
+  reversed,
+} from "./judging";
 import { isShown, type LabelState, SHOW_ALL, type Shown, verdictAt } from "./label_state";
 import { nextInSequence, type ReviewOrder, reviewSequence } from "./order";
 import type { Stopwatch } from "./stopwatch";
+import { NOT_SUGGESTING, type Suggesting, suggestedAt, suggestionAt } from "./suggestions/suggestions";
 import { countVerdicts } from "./verdicts";
 
 interface StoreParts {
   candidates: readonly SegmentFacts[];
   verdicts: readonly Verdict[];
+  reasons: readonly (RejectReason | null)[];
   history: History;
   imageHeight: number;
   order: ReviewOrder;
@@ -20,8 +32,6 @@ interface StoreParts {
   /** Takes the decisions to where they can't be lost. */
   record: (decisions: NewDecision[]) => void;
 }
-
-type Kind = NewDecision["kind"];
 
 export class LabelStore {
   private readonly parts: StoreParts;
@@ -37,11 +47,14 @@ export class LabelStore {
     this.state = {
       candidates: parts.candidates,
       verdicts: parts.verdicts,
+      reasons: parts.reasons,
       counts: countVerdicts(parts.verdicts),
       sequence: reviewSequence(parts.candidates, parts.order, parts.imageHeight),
       order: parts.order,
       selected: null,
+      selection: [],
       shown: parts.shown ?? SHOW_ALL,
+      suggesting: NOT_SUGGESTING,
       history: parts.history,
       followRequest: 0,
     };
@@ -62,7 +75,29 @@ export class LabelStore {
     if (index !== this.state.selected) this.parts.stopwatch.restart();
     if (index !== null) this.place = index;
     const { followRequest } = this.state;
-    this.set({ selected: index, followRequest: follow ? followRequest + 1 : followRequest });
+    this.set({
+      selected: index,
+      selection: index === null ? [] : [index],
+      followRequest: follow ? followRequest + 1 : followRequest,
+    });
+  }
+
+  /** Selects exactly these; the panel shows the first of them in the order of review. */
+  selectAll(indices: Iterable<number>): void {
+    const wanted = new Set(indices);
+    const selection = this.state.sequence.filter((index) => wanted.has(index));
+    const selected = selection[0] ?? null;
+    this.select(selected);
+    if (selection.length > 1) this.set({ selection });
+  }
+
+  /** Adds a candidate to the selection, or takes it out of it. */
+  toggleSelected(index: number): void {
+    const { selection } = this.state;
+    const left = selection.filter((other) => other !== index);
+    const next = left.length < selection.length ? left : [...selection, index];
+    this.select(next.at(-1) ?? null);
+    if (next.length > 1) this.set({ selection: next });
   }
 
   /** Selects the next (or previous) candidate that is shown. */
@@ -79,13 +114,13 @@ export class LabelStore {
     return first !== null;
   }
 
-  /** Gives the selected candidate a verdict and goes to the next undecided one. */
-  judgeSelected(verdict: Verdict): void {
-    const { selected } = this.state;
-    if (selected === null) return;
-    const changed = this.judge([selected], verdict);
-    if (verdict === "undecided") return;
-    if (changed || verdictAt(this.state, selected) === verdict) this.advance(selected);
+  /** Gives all that is selected a verdict, as one group, and goes to the next undecided candidate. */
+  judgeSelected(verdict: Verdict, given: JudgeOptions = {}): boolean {
+    const { selected, selection } = this.state;
+    if (selected === null) return false;
+    const judged = this.judge(selection, verdict, given);
+    if (verdict !== "undecided") this.advance(selected);
+    return judged;
   }
 
   /** Rejects all that is undecided, shown or not; gives their number. */
@@ -96,13 +131,23 @@ export class LabelStore {
   }
 
   /** One verdict for several candidates, undone by one undo. */
-  judge(indices: readonly number[], verdict: Verdict): boolean {
-    const changes = indices
-      .map((index) => this.changeOf(index, verdict))
-      .filter((change) => change.from !== change.to);
-    if (changes.length === 0) return false;
+  judge(indices: readonly number[], verdict: Verdict, { reason, kind }: JudgeOptions = {}): boolean {
+    return this.decide(
+      indices.map((index) => ({ index, verdict, reason })),
+      kind,
+    );
+  }
+
+  /** Several judgements that are undone by one undo; false where nothing changes. */
+  decide(given: readonly Given[], kind: JudgeOptions["kind"] = "judge"): boolean {
+    const changing = given
+      .map((wish) => ({ change: changeOf(this.state, wish), suggestion: this.probabilityShown(wish) }))
+      .filter(({ change }) => isChange(change));
+    if (changing.length === 0) return false;
+    const changes = changing.map(({ change }) => change);
     const group: ChangeGroup = { id: this.parts.newId(), changes };
-    this.apply(changes, "judge", group.id);
+    const suggestions = new Map(changing.map(({ change, suggestion }) => [change.segmentId, suggestion]));
+    this.apply(changes, { kind, groupId: group.id, suggestions });
     this.set({ history: pushed(this.state.history, group) });
     return true;
   }
@@ -121,27 +166,62 @@ export class LabelStore {
    *
    * @param decisions All of the image as the server has them, oldest first.
    * @param unsent Those of here that aren't among them.
+   * @param edited Segments that edits by hand added or replaced.
    */
-  catchUp(decisions: readonly StoredDecision[], unsent: readonly NewDecision[]): CaughtUp {
-    const caught = caughtUp(this.state, this.indexOf, decisions, unsent);
-    const { changed, verdicts, history } = caught;
-    this.set(changed.length > 0 ? { verdicts, history, counts: countVerdicts(verdicts) } : { history });
+  catchUp(
+    decisions: readonly StoredDecision[],
+    unsent: readonly NewDecision[],
+    edited?: ReadonlySet<number>,
+  ): CaughtUp {
+    const caught = caughtUp(this.state, this.indexOf, decisions, unsent, edited);
+    const { verdicts, reasons, history } = caught;
+    this.set(
+      caught.changed.length > 0
+        ? { verdicts, reasons, history, counts: countVerdicts(verdicts) }
+        : { history },
+    );
     return caught;
   }
 
   setShown(shown: Shown): void {
     this.set({ shown });
-    const { selected } = this.state;
-    if (selected !== null && !isShown(this.state, selected)) this.select(null);
+    const { selection } = this.state;
+    const left = selection.filter(this.shownAt);
+    if (left.length < selection.length) this.selectAll(left);
   }
 
   setOrder(order: ReviewOrder): void {
-    const sequence = reviewSequence(this.state.candidates, order, this.parts.imageHeight);
-    this.set({ order, sequence });
+    this.set({ order, sequence: this.sequenceOf(order, this.state.suggesting) });
+  }
+
+  setSuggesting(suggesting: Suggesting): void {
+    const known = suggesting.of === this.state.suggesting.of;
+    const sequence = known ? this.state.sequence : this.sequenceOf(this.state.order, suggesting);
+    this.set({ suggesting, sequence });
+  }
+
+  /** Decides the undecided among some candidates as suggested, as one group; gives how many are kept and rejected. */
+  acceptSuggested(indices: readonly number[]): { keep: number; reject: number } {
+    const counts = { keep: 0, reject: 0 };
+    const given: Given[] = [];
+    for (const index of indices.filter(this.undecidedAt)) {
+      const verdict = suggestedAt(this.state.suggesting, index);
+      if (verdict === null) continue;
+      counts[verdict]++;
+      given.push({ index, verdict });
+    }
+    const { selected } = this.state;
+    this.decide(given, "accept");
+    if (selected !== null && given.some(({ index }) => index === selected)) this.advance(selected);
+    return counts;
   }
 
   private readonly shownAt = (index: number): boolean => isShown(this.state, index);
   private readonly undecidedAt = (index: number): boolean => verdictAt(this.state, index) === "undecided";
+
+  private sequenceOf(order: ReviewOrder, suggesting: Suggesting): number[] {
+    return reviewSequence(this.parts.candidates, order, this.parts.imageHeight, suggesting.of);
+  }
 
   private advance(from: number): void {
     const wanted = (index: number) => this.undecidedAt(index) && this.shownAt(index);
@@ -154,7 +234,7 @@ export class LabelStore {
     const group = kind === "undo" ? history.done.at(-1) : history.undone.at(-1);
     if (group === undefined) return null;
     const changes = kind === "undo" ? group.changes.map(reversed) : group.changes;
-    this.apply(changes, kind, this.parts.newId(), group.id);
+    this.apply(changes, { kind, groupId: this.parts.newId(), targetGroupId: group.id });
     this.set({ history: kind === "undo" ? undone(history) : redone(history) });
     const [only, ...others] = group.changes;
     const index = only === undefined || others.length > 0 ? null : this.indexOfSegment(only.segmentId);
@@ -162,45 +242,19 @@ export class LabelStore {
     return group;
   }
 
-  private changeOf(index: number, to: Verdict): VerdictChange {
-    const candidate = this.state.candidates[index];
-    if (candidate === undefined) throw new RangeError(`There is no candidate ${index}.`);
-    return { segmentId: candidate.id, from: verdictAt(this.state, index), to };
+  private probabilityShown({ index, suggestion }: Given): number | null {
+    return suggestion ?? suggestionAt(this.state.suggesting, index)?.probability ?? null;
   }
 
-  private apply(
-    changes: readonly VerdictChange[],
-    kind: Kind,
-    groupId: string,
-    targetGroupId?: string,
-  ): void {
-    const elapsed = this.parts.stopwatch.read();
-    const verdicts = [...this.state.verdicts];
-    for (const { segmentId, to } of changes) {
-      const index = this.indexOfSegment(segmentId);
-      if (index !== null) verdicts[index] = to;
-    }
-    this.parts.record(
-      changes.map(({ segmentId, to }) => ({
-        client_id: this.parts.newId(),
-        group_id: groupId,
-        kind,
-        ...(targetGroupId === undefined ? {} : { target_group_id: targetGroupId }),
-        segment_id: segmentId,
-        verdict: to,
-        elapsed_ms: elapsed,
-      })),
-    );
-    this.parts.stopwatch.restart();
-    this.set({ verdicts, counts: countVerdicts(verdicts) });
+  private apply(changes: readonly VerdictChange[], act: Act): void {
+    const { stopwatch, newId, record } = this.parts;
+    record(decisionsOf(changes, act, stopwatch.read(), newId));
+    stopwatch.restart();
+    this.set(changed(this.state, this.indexOf, changes));
   }
 
   private set(part: Partial<LabelState>): void {
     this.state = { ...this.state, ...part };
     for (const listener of [...this.listeners]) listener();
   }
-}
-
-function reversed({ segmentId, from, to }: VerdictChange): VerdictChange {
-  return { segmentId, from: to, to: from };
 }

@@ -16,6 +16,8 @@ const stored: StoredDecision = {
   group_id: "g1",
   target_group_id: null,
   elapsed_ms: 500,
+  reason: null,
+  suggestion: null,
   person: "owner",
   created_at: "2026-01-01T00:00:00Z",
 };
@@ -24,9 +26,11 @@ function open(pending: NewDecision[]) {
   return openLabelStore(
     {
       imageId: 9,
+      imageWidth: 200,
       imageHeight: 100,
       candidates: [candidate(1, { verdict: "keep" }), candidate(2)],
       scene: EMPTY_SCENE,
+      lastDecisionId: 0,
     },
     {
       pending,

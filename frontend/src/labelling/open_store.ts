@@ -1,8 +1,8 @@
 /** A store for fetched annotations, with whatever is still in the outbox on top; `catchUp` brings the history. */
 
-import type { NewDecision, Verdict } from "../api/types";
+import type { NewDecision } from "../api/types";
 import type { Annotations } from "./annotations";
-import { asRecorded, rebuildHistory } from "./history";
+import { asRecorded, type Judgement, rebuildHistory, UNDECIDED } from "./history";
 import type { Shown } from "./label_state";
 import { LabelStore } from "./label_store";
 import type { ReviewOrder } from "./order";
@@ -21,13 +21,18 @@ interface Surroundings {
 export function openLabelStore(annotations: Annotations, surroundings: Surroundings): LabelStore {
   const { candidates, imageHeight } = annotations;
   const { pending, order, shown, stopwatch, newId, record } = surroundings;
-  const verdicts = new Map<number, Verdict>(candidates.map(({ id, verdict }) => [id, verdict]));
-  const recorded = asRecorded(pending, (id) => verdicts.get(id) ?? "undecided");
-  for (const { segment_id, verdict } of pending) verdicts.set(segment_id, verdict);
+  const judgements = new Map<number, Judgement>(
+    candidates.map(({ id, verdict, reason }) => [id, { verdict, reason }]),
+  );
+  const recorded = asRecorded(pending, (id) => judgements.get(id) ?? UNDECIDED);
+  for (const { segment_id, verdict, reason = null } of pending) {
+    judgements.set(segment_id, { verdict, reason });
+  }
   return new LabelStore({
     candidates,
-    verdicts: candidates.map(({ id }) => verdicts.get(id) ?? "undecided"),
-    history: rebuildHistory(recorded, (id) => verdicts.has(id)),
+    verdicts: candidates.map(({ id }) => judgements.get(id)?.verdict ?? "undecided"),
+    reasons: candidates.map(({ id }) => judgements.get(id)?.reason ?? null),
+    history: rebuildHistory(recorded, (id) => judgements.has(id)),
     imageHeight,
     order,
     shown,

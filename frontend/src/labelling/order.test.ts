@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { nextInSequence, readingRows, reviewSequence } from "./order";
+import { nextInSequence, orderAfter, REVIEW_ORDERS, readingRows, reviewSequence } from "./order";
 import { candidate } from "./test_candidates";
 
 describe("order of review", () => {
@@ -29,6 +29,24 @@ describe("order of review", () => {
     ];
     expect(reviewSequence(candidates, "score", 100)).toEqual([2, 0, 1]);
     expect(reviewSequence(candidates, "length", 100)).toEqual([1, 2, 0]);
+  });
+
+  it("puts what is most worth a look first, and what nobody knows last, by its place", () => {
+    const candidates = [candidate(1), candidate(2), candidate(3), candidate(4)];
+    const worth = [null, { value: 0.2, lens: 0.7 }, { value: 0.9, lens: 0.1 }, null];
+    expect(reviewSequence(candidates, "value", 100, worth)).toEqual([2, 1, 0, 3]);
+    expect(reviewSequence(candidates, "lens", 100, worth)).toEqual([1, 2, 0, 3]);
+    expect(reviewSequence(candidates, "lens", 100)).toEqual(reviewSequence(candidates, "position", 100));
+  });
+
+  it("goes round", () => {
+    const visited = REVIEW_ORDERS.map((_, step) => {
+      let order = REVIEW_ORDERS[0] as (typeof REVIEW_ORDERS)[number];
+      for (let i = 0; i < step; i++) order = orderAfter(order);
+      return order;
+    });
+    expect(visited).toEqual([...REVIEW_ORDERS]);
+    expect(orderAfter(visited.at(-1) ?? "lens")).toBe(REVIEW_ORDERS[0]);
   });
 
   it("keeps the given order among equals", () => {

@@ -2,44 +2,73 @@
 
 import type { SegmentFacts } from "../api/types";
 
-export const REVIEW_ORDERS = ["position", "score", "length"] as const;
+export const REVIEW_ORDERS = ["position", "score", "length", "value", "lens"] as const;
 export type ReviewOrder = (typeof REVIEW_ORDERS)[number];
 
 export const REVIEW_ORDER_NAMES: Readonly<Record<ReviewOrder, { short: string; whole: string }>> = {
   position: { short: "Place", whole: "Left to right, top to bottom" },
   score: { short: "Score", whole: "Best score first" },
   length: { short: "Length", whole: "Longest first" },
+  value: { short: "Value", whole: "What is most worth a look first: uncertain and long" },
+  lens: { short: "Lens", whole: "What tells most of the lens first" },
 };
+
+/** What a look at a candidate is worth; null where nobody knows. */
+export type Worth = { readonly value: number; readonly lens: number } | null;
 
 /** A row of reading is at most the image's height over this; its lines are visited from left to right. */
 const ROWS = 6;
 
-/** Indices of the candidates in the order of review. */
+/** The order that follows on another; after the last comes the first. */
+export function orderAfter(order: ReviewOrder): ReviewOrder {
+  return REVIEW_ORDERS[(REVIEW_ORDERS.indexOf(order) + 1) % REVIEW_ORDERS.length] ?? "position";
+}
+
+/**
+ * Indices of the candidates in the order of review.
+ *
+ * @param worth By candidate index; as long as it isn't known, the orders by it are the one by place.
+ */
 export function reviewSequence(
   candidates: readonly SegmentFacts[],
   order: ReviewOrder,
   imageHeight: number,
+  worth: readonly Worth[] = [],
 ): number[] {
-  const keys = KEYS[order](candidates, imageHeight);
+  const keys = KEYS[order](candidates, imageHeight, worth);
   return candidates
     .map((_, index) => index)
     .sort((a, b) => compare(keys[a] as number[], keys[b] as number[]) || a - b);
 }
 
-type SortKeys = (candidates: readonly SegmentFacts[], imageHeight: number) => number[][];
+type SortKeys = (
+  candidates: readonly SegmentFacts[],
+  imageHeight: number,
+  worth: readonly Worth[],
+) => number[][];
+
+const byPlace: SortKeys = (candidates, imageHeight) => {
+  const middles = candidates.map(({ box: [, y0, , y1] }) => (y0 + y1) / 2);
+  const rows = readingRows(middles, Math.max(imageHeight, 1) / ROWS);
+  return candidates.map(({ box: [x0, , x1] }, index) => [
+    rows[index] as number,
+    x0 + x1,
+    middles[index] as number,
+  ]);
+};
+
+/** What nobody knows the worth of comes last; equals in the order of their places. */
+function byWorth(kind: "value" | "lens"): SortKeys {
+  return (candidates, imageHeight, worth) =>
+    byPlace(candidates, imageHeight, worth).map((place, index) => [-(worth[index]?.[kind] ?? -1), ...place]);
+}
 
 const KEYS: Readonly<Record<ReviewOrder, SortKeys>> = {
-  position: (candidates, imageHeight) => {
-    const middles = candidates.map(({ box: [, y0, , y1] }) => (y0 + y1) / 2);
-    const rows = readingRows(middles, Math.max(imageHeight, 1) / ROWS);
-    return candidates.map(({ box: [x0, , x1] }, index) => [
-      rows[index] as number,
-      x0 + x1,
-      middles[index] as number,
-    ]);
-  },
+  position: byPlace,
   score: (candidates) => candidates.map(({ score, straight }) => [-(score ?? 0), straight === false ? 1 : 0]),
   length: (candidates) => candidates.map(({ length }) => [-length]),
+  value: byWorth("value"),
+  lens: byWorth("lens"),
 };
 
 /**

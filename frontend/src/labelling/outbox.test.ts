@@ -9,6 +9,8 @@ const ANSWER: DecisionsStored = {
   repeated: 0,
   verdicts: { undecided: 0, keep: 0, reject: 0, ambiguous: 0 },
   status: "open",
+  last_decision_id: 1,
+  others: [],
 };
 
 const decision = (id: string): NewDecision => ({

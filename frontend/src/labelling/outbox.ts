@@ -8,6 +8,7 @@
 import { asProblem, RequestFailed } from "../api/problem";
 import type { DecisionsStored, NewDecision, Problem } from "../api/types";
 import type { OutboxEntry, OutboxStorage } from "./outbox_storage";
+import { type StaleDecision, seenByNow, sortedOut } from "./people/stale_decisions";
 
 /** The server's limit is 5,000; smaller batches keep a bad connection moving. */
 const BATCH = 500;
@@ -26,6 +27,7 @@ export type SaveState =
       /** Whether what waits survives a reload. */
       readonly kept: boolean;
     }
+  | { readonly kind: "stale"; readonly stale: readonly StaleDecision[] }
   | { readonly kind: "refused"; readonly refused: readonly RefusedDecision[] };
 
 export interface RefusedDecision extends OutboxEntry {
@@ -34,7 +36,7 @@ export interface RefusedDecision extends OutboxEntry {
 
 interface OutboxParts {
   storage: OutboxStorage;
-  send: (imageId: number, decisions: NewDecision[]) => Promise<DecisionsStored>;
+  send: (imageId: number, decisions: NewDecision[], seen: number | null) => Promise<DecisionsStored>;
   /** Resolves after some milliseconds, earlier when the network comes back. */
   wait: (milliseconds: number) => Promise<void>;
   /** Resolves after some milliseconds, whatever the network does. */
@@ -46,6 +48,8 @@ export class Outbox {
   private readonly parts: OutboxParts;
   private queue: OutboxEntry[] = [];
   private refused: RefusedDecision[] = [];
+  /** Kept in the browser until the person has said whose verdict stands. */
+  private stale: readonly StaleDecision[] = [];
   private problem: Problem | null = null;
   private pumping: Promise<void> | null = null;
   private stored: Promise<unknown> = Promise.resolve();
@@ -62,6 +66,9 @@ export class Outbox {
 
   readonly getState = (): SaveState => this.state;
 
+  /** What waits for an answer whose verdict stands; the same list until it changes. */
+  readonly getStale = (): readonly StaleDecision[] => this.stale;
+
   readonly subscribe = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
@@ -73,8 +80,14 @@ export class Outbox {
     return this.restored;
   }
 
-  add(imageId: number, decisions: readonly NewDecision[]): void {
-    const entries = decisions.map((decision) => ({ imageId, decision }));
+  /** @param seen The image's last decision that the person knows. */
+  add(imageId: number, decisions: readonly NewDecision[], seen: number | null = null): void {
+    const entries = decisions.map((decision) => ({ imageId, decision, seen }));
+    const judged = new Set(decisions.map((decision) => decision.segment_id));
+    // A new verdict is the answer to the question whose stands.
+    this.takeTheirs(
+      this.stale.filter((entry) => entry.imageId === imageId && judged.has(entry.decision.segment_id)),
+    );
     this.queue = [...this.queue, ...entries];
     this.stored = Promise.all([this.stored, this.store(entries)]);
     this.pump();
@@ -118,6 +131,21 @@ export class Outbox {
     });
   }
 
+  /** Sends decisions again, by someone who knows the other person's verdict. */
+  keepMine(stale: readonly StaleDecision[]): void {
+    this.stale = this.stale.filter((entry) => !stale.includes(entry));
+    this.queue = [...this.queue, ...seenByNow(stale)];
+    this.pump();
+  }
+
+  /** Forgets decisions: the other person's verdicts stand. */
+  takeTheirs(stale: readonly StaleDecision[]): void {
+    if (stale.length === 0) return;
+    this.stale = this.stale.filter((entry) => !stale.includes(entry));
+    this.forget(stale);
+    this.update();
+  }
+
   /** The person has read what was refused. */
   dismissRefused(): void {
     this.refused = [];
@@ -143,7 +171,7 @@ export class Outbox {
       if (error instanceof RequestFailed && error.temporary) wait(LONGEST_WAIT).then(() => this.takeUp());
       return [];
     });
-    const known = new Set(this.queue.map((entry) => entry.decision.client_id));
+    const known = new Set([...this.queue, ...this.stale].map((entry) => entry.decision.client_id));
     this.queue = [...left.filter((entry) => !known.has(entry.decision.client_id)), ...this.queue];
     this.pump();
   }
@@ -183,8 +211,10 @@ export class Outbox {
   }
 
   private nextBatch(): OutboxEntry[] {
-    const imageId = this.queue[0]?.imageId;
-    const end = this.queue.findIndex((entry) => entry.imageId !== imageId);
+    const [first] = this.queue;
+    const end = this.queue.findIndex(
+      (entry) => entry.imageId !== first?.imageId || seenOf(entry) !== seenOf(first),
+    );
     return this.queue.slice(0, Math.min(end < 0 ? this.queue.length : end, BATCH));
   }
 
@@ -196,11 +226,18 @@ export class Outbox {
       const answer = await this.parts.send(
         first.imageId,
         batch.map((entry) => entry.decision),
+        seenOf(first),
       );
       this.forget(batch);
       this.parts.onStored?.(first.imageId, answer);
     } catch (error) {
       if (!(error instanceof RequestFailed) || error.temporary) throw error;
+      const { stale, rest } = sortedOut(batch, error.problem);
+      if (stale.length > 0) {
+        this.holdBack(stale);
+        await this.sendBatch(rest);
+        return;
+      }
       if (batch.length === 1) {
         this.refused = [...this.refused, { ...first, problem: error.problem }];
         this.forget(batch);
@@ -210,6 +247,14 @@ export class Outbox {
       await this.sendBatch(batch.slice(0, half));
       await this.sendBatch(batch.slice(half));
     }
+  }
+
+  /** What is stale isn't sent again by itself, and isn't lost either. */
+  private holdBack(stale: readonly StaleDecision[]): void {
+    const ids = new Set(stale.map((entry) => entry.decision.client_id));
+    this.queue = this.queue.filter((entry) => !ids.has(entry.decision.client_id));
+    this.stale = [...this.stale, ...stale];
+    this.update();
   }
 
   private forget(batch: readonly OutboxEntry[]): void {
@@ -232,7 +277,12 @@ export class Outbox {
       return { kind: "offline", waiting, problem: this.problem, kept: this.kept };
     }
     if (waiting > 0) return { kind: "saving", waiting };
+    if (this.stale.length > 0) return { kind: "stale", stale: this.stale };
     if (this.refused.length > 0) return { kind: "refused", refused: this.refused };
     return { kind: "saved" };
   }
+}
+
+function seenOf(entry: OutboxEntry): number | null {
+  return entry.seen ?? null;
 }

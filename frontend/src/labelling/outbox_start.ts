@@ -4,13 +4,17 @@ import { getConfiguration, postDecisions } from "../api/endpoints";
 import type { DecisionsStored } from "../api/types";
 import { Outbox } from "./outbox";
 import { memoryStorage, openOutboxStorage } from "./outbox_storage";
+import { SeenDecisions } from "./people/seen_decisions";
+
+/** What this page knows of each image's decisions. */
+export const seenDecisions = new SeenDecisions();
 
 type StoredListener = (imageId: number, answer: DecisionsStored) => void;
 const storedListeners = new Set<StoredListener>();
 
 export const outbox = new Outbox({
   storage: typeof indexedDB === "undefined" ? memoryStorage() : openOutboxStorage(indexedDB, servedInstance),
-  send: (imageId, decisions) => postDecisions(imageId, decisions),
+  send: (imageId, decisions, seen) => postDecisions(imageId, decisions, seen),
   wait: waitForNetwork,
   patience: (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   onStored: (imageId, answer) => {
@@ -32,7 +36,8 @@ async function servedInstance(): Promise<string> {
   return (await getConfiguration()).instance;
 }
 
-function waitForNetwork(milliseconds: number): Promise<void> {
+/** Resolves after some milliseconds, earlier when the network comes back. */
+export function waitForNetwork(milliseconds: number): Promise<void> {
   return new Promise((resolve) => {
     const done = () => {
       clearTimeout(timer);

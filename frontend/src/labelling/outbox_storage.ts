@@ -5,6 +5,8 @@ import type { NewDecision } from "../api/types";
 export interface OutboxEntry {
   readonly imageId: number;
   readonly decision: NewDecision;
+  /** The image's last decision that was known when this one was made; null or absent where none was. */
+  readonly seen?: number | null;
 }
 
 export interface OutboxStorage {

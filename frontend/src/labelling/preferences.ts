@@ -1,6 +1,6 @@
 /** How a person likes to work, kept in this browser. */
 
-import { SHOW_ALL, type Shown } from "./label_state";
+import { FOCUSES, SHOW_ALL, type Shown } from "./label_state";
 import { REVIEW_ORDERS, type ReviewOrder } from "./order";
 
 export interface LabelPreferences {
@@ -19,6 +19,8 @@ export function readPreferences(storage: Storage): LabelPreferences {
       shown: {
         verdicts: { ...DEFAULTS.shown.verdicts, ...shown?.verdicts },
         bent: shown?.bent ?? DEFAULTS.shown.bent,
+        ranges: { ...DEFAULTS.shown.ranges, ...shown?.ranges },
+        focus: FOCUSES.find((known) => known === shown?.focus) ?? DEFAULTS.shown.focus,
       },
     };
   } catch {

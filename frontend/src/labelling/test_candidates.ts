@@ -13,6 +13,7 @@ export function candidate(id: number, facts: Partial<SegmentFacts> = {}): Segmen
     straightness: 0.9,
     straight: true,
     verdict: "undecided",
+    reason: null,
     origin: "pipeline",
     box: [10 * id, 0, 10 * id + 5, 5],
     ...facts,

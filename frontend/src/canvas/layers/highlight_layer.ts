@@ -91,8 +91,8 @@ function drawEnds(
 }
 
 function pathOf(scene: Scene, viewport: Viewport, index: number): Path2D {
-  const { offsets, coordinates } = scene.atScale(viewport.scale);
+  const line = scene.line(index, viewport.scale);
   const path = new Path2D();
-  tracePolyline(path, coordinates, at(offsets, index), at(offsets, index + 1), viewport);
+  tracePolyline(path, line, 0, line.length / 2, viewport);
   return path;
 }

@@ -1,118 +1,180 @@
 /**
  * The lines as a bitmap that moves along with the view.
  *
- * It is drawn tile by tile, a few per frame, because thousands of lines take longer than a frame. A new
- * verdict redraws only the boxes along its line. The bitmap reaches beyond the screen, so that a pan brings
- * lines in instead of an empty margin.
+ * Thousands of lines take longer than a frame, so the bitmap is drawn elsewhere and taken over when it comes. A new
+ * verdict redraws only the boxes along its line, here and at once. The bitmap reaches beyond the screen, so that a
+ * pan brings lines in instead of an empty margin.
  */
 
+import { type Frame, frameOf, sameFrame } from "../frame";
 import type { Box } from "../geometry";
+import type { LinePainter } from "../line_painter";
+import type { Drawing } from "../picture_task";
 import type { Scene } from "../scene";
 import type { Size, Viewport } from "../viewport";
 import { drawLines, type LineLook } from "./line_layer";
-import { clearSurface, makeSurface, resizeSurface, type Surface, setScreenUnits } from "./surface";
-import { boxesAlong, canvasBox, imageBox, tilesOf } from "./tiles";
+import { packLines } from "./packed_lines";
+import { boxesAlong, canvasBox, imageBox } from "./regions";
+import { clearSurface, makeSurface, type Surface, setScreenUnits } from "./surface";
 
-/** Share of the screen that the bitmap holds beyond each edge. */
-const MARGIN = 0.2;
-/** Time for drawing within one frame (ms), so that nothing stutters meanwhile. */
-const FRAME_BUDGET = 3;
-
-interface Picture {
-  readonly surface: Surface;
-  viewport: Viewport;
-  ratio: number;
-  /** Canvas px beyond the screen on each side. */
-  margin: number;
+interface Wish {
+  readonly scene: Scene;
+  readonly look: LineLook;
+  readonly viewport: Viewport;
+  readonly screen: Size;
+  readonly ratio: number;
 }
 
+/** Two per vertex: what is drawn within a few ms is there sooner without a worker. */
+const FEW_COORDINATES = 2_000;
+
+const NO_FRAME: Frame = {
+  viewport: { scale: 1, offsetX: 0, offsetY: 0 },
+  ratio: 1,
+  margin: 0,
+  width: 1,
+  height: 1,
+};
+
 export class LineBitmap {
-  private shown = makePicture();
-  private spare = makePicture();
-  private tiles: Box[] = [];
-  private target = this.shown;
+  private readonly painter: LinePainter;
+  private readonly arrived: (changed: readonly number[]) => void;
+  private readonly surface = makeSurface(document.createElement("canvas"));
+  private frame = NO_FRAME;
   private valid = false;
+  /** Which scene's pictures are still wanted: what comes for another one is thrown away. */
+  private generation = 0;
+  private underWay = false;
+  private next: Wish | null = null;
+  /** Lines that changed since the picture under way was asked for. */
+  private readonly changed = new Set<number>();
+
+  /** @param arrived Hears when a picture drawn elsewhere is there, and which lines have changed since it was begun. */
+  constructor(painter: LinePainter, arrived: (changed: readonly number[]) => void) {
+    this.painter = painter;
+    this.arrived = arrived;
+  }
 
   /** Forgets what is drawn: the scene is another one. */
   reset(): void {
+    this.generation++;
     this.valid = false;
-    this.tiles = [];
-    clearSurface(this.shown.surface);
+    this.underWay = false;
+    this.next = null;
+    this.changed.clear();
+    clearSurface(this.surface);
   }
 
-  /** Starts a drawing for a viewport; `drawTiles` does the work. */
-  start(scene: Scene, viewport: Viewport, screen: Size, ratio: number): void {
-    this.target = this.valid ? this.spare : this.shown;
-    const { surface } = this.target;
-    const margin = Math.round(MARGIN * Math.max(screen.width, screen.height) * ratio);
-    Object.assign(this.target, { viewport, ratio, margin });
-    resizeSurface(surface, screen, ratio, margin);
-    clearSurface(surface);
-    const whole = { minX: 0, minY: 0, maxX: surface.canvas.width, maxY: surface.canvas.height };
-    const seen = scene.places.touching(imageBox(whole, viewport, ratio, margin)).length;
-    // A line that tiles share is drawn in each: the first drawing is faster without them.
-    this.tiles = this.valid ? tilesOf(surface.canvas.width, surface.canvas.height, seen) : [whole];
+  /** Asks for a drawing; of several that are asked for meanwhile the last one is made. */
+  start(wish: Wish): void {
+    this.next = wish;
+    if (!this.underWay) this.begin();
   }
 
-  /** Leaves a drawing that a movement has made useless. */
+  /** Takes back what nobody has begun to draw: the view has moved on. */
   cancel(): void {
-    if (this.valid) this.tiles = [];
+    if (this.valid) this.next = null;
   }
 
+  /** Whether what is shown was drawn for just this, and isn't only moved there. */
+  isDrawnFor(viewport: Viewport, screen: Size, ratio: number): boolean {
+    return this.valid && !this.drawing && sameFrame(this.frame, frameOf(viewport, screen, ratio));
+  }
+
+  /** Whether a drawing that is asked for isn't there yet. */
   get drawing(): boolean {
-    return this.tiles.length > 0;
+    return this.underWay || this.next !== null;
   }
 
-  /** Draws tiles for about as long as one frame has; after the last one the new picture is what is shown. */
-  drawTiles(scene: Scene, look: LineLook): void {
-    const end = performance.now() + FRAME_BUDGET;
-    do this.drawTile(scene, look);
-    while (this.drawing && performance.now() < end);
-  }
-
-  private drawTile(scene: Scene, look: LineLook): void {
-    const tile = this.tiles.shift();
-    if (tile === undefined) return;
-    drawRegion(this.target, tile, scene, look);
-    if (this.tiles.length > 0) return;
-    if (this.target !== this.shown) [this.shown, this.spare] = [this.spare, this.shown];
-    this.valid = true;
-  }
-
-  /** Redraws what lies along some lines, in the picture that is shown. */
+  /** Redraws what lies along some lines; the picture under way is redrawn there once it has come. */
   redraw(indices: readonly number[], scene: Scene, look: LineLook): void {
-    const { viewport, ratio, margin } = this.shown;
+    if (this.underWay) for (const index of indices) this.changed.add(index);
+    if (this.next !== null) this.next = { ...this.next, look };
+    if (!this.valid) return;
+    const { viewport, ratio, margin } = this.frame;
     // Box by box: a clip of one rectangle is cheap, a clip of many is not.
     for (const box of indices.flatMap((index) => boxesAlong(scene, index))) {
-      drawRegion(this.shown, canvasBox(box, viewport, ratio, margin), scene, look);
+      const region = canvasBox(box, viewport, ratio, margin);
+      const touching = scene.places.touching(imageBox(region, viewport, ratio, margin));
+      const lines = packLines(scene, look, viewport.scale, touching);
+      drawRegion(this.surface, region, { lines, styles: look.styles, frame: this.frame });
     }
   }
 
   /** Copies the picture to a surface as it looks from another viewport. */
   copyTo(target: Surface, viewport: Viewport, ratio: number): void {
     clearSurface(target);
-    const { surface, viewport: drawnAt, margin } = this.shown;
+    if (!this.valid) return;
+    const { viewport: drawnAt, margin, width, height } = this.frame;
     const change = viewport.scale / drawnAt.scale;
     const x = (viewport.offsetX - drawnAt.offsetX * change) * ratio - margin * change;
     const y = (viewport.offsetY - drawnAt.offsetY * change) * ratio - margin * change;
-    const { width, height } = surface.canvas;
     target.context.imageSmoothingEnabled = change !== 1;
-    target.context.drawImage(surface.canvas, x, y, width * change, height * change);
+    target.context.drawImage(this.surface.canvas, x, y, width * change, height * change);
+  }
+
+  private begin(): void {
+    const wish = this.next;
+    if (wish === null) return;
+    this.next = null;
+    const { scene, look, viewport, screen, ratio } = wish;
+    const drawing = this.painter.drawingOf(scene, look, viewport, screen, ratio);
+    if (drawing.lines.coordinates.length <= FEW_COORDINATES) {
+      this.drawHere(drawing);
+      return;
+    }
+    const painted = this.painter.paint(scene, drawing);
+    if (painted instanceof ImageBitmap) this.take(painted, drawing.frame);
+    else this.await(painted, drawing);
+  }
+
+  private await(painted: Promise<ImageBitmap>, drawing: Drawing): void {
+    const { generation } = this;
+    this.underWay = true;
+    painted.then(
+      (picture) => {
+        if (generation === this.generation) this.come(() => this.take(picture, drawing.frame));
+        else picture.close();
+      },
+      () => {
+        if (generation === this.generation) this.come(() => this.drawHere(drawing));
+      },
+    );
+  }
+
+  private come(show: () => void): void {
+    const changed = [...this.changed];
+    this.changed.clear();
+    this.underWay = false;
+    show();
+    this.begin();
+    this.arrived(changed);
+  }
+
+  private take(picture: ImageBitmap, frame: Frame): void {
+    this.use(frame);
+    this.surface.context.drawImage(picture, 0, 0);
+    picture.close();
+  }
+
+  private drawHere(drawing: Drawing): void {
+    const { width, height } = drawing.frame;
+    this.use(drawing.frame);
+    drawRegion(this.surface, { minX: 0, minY: 0, maxX: width, maxY: height }, drawing);
+  }
+
+  private use(frame: Frame): void {
+    const { canvas } = this.surface;
+    if (canvas.width !== frame.width) canvas.width = frame.width;
+    if (canvas.height !== frame.height) canvas.height = frame.height;
+    clearSurface(this.surface);
+    this.frame = frame;
+    this.valid = true;
   }
 }
 
-function makePicture(): Picture {
-  return {
-    surface: makeSurface(document.createElement("canvas")),
-    viewport: { scale: 1, offsetX: 0, offsetY: 0 },
-    ratio: 1,
-    margin: 0,
-  };
-}
-
 /** Draws anew everything inside a box of canvas px, and nothing outside. */
-function drawRegion(picture: Picture, box: Box, scene: Scene, look: LineLook): void {
-  const { surface, viewport, ratio, margin } = picture;
+function drawRegion(surface: Surface, box: Box, { lines, styles, frame }: Drawing): void {
   const { context } = surface;
   const { minX, minY, maxX, maxY } = box;
   context.save();
@@ -121,9 +183,7 @@ function drawRegion(picture: Picture, box: Box, scene: Scene, look: LineLook): v
   context.rect(minX, minY, maxX - minX, maxY - minY);
   context.clip();
   context.clearRect(minX, minY, maxX - minX, maxY - minY);
-  setScreenUnits(surface, ratio, margin);
-  // Always in the same order, so that lines lie over each other as in every other drawing.
-  const indices = scene.places.touching(imageBox(box, viewport, ratio, margin)).sort((a, b) => a - b);
-  drawLines(context, scene, look, viewport, indices);
+  setScreenUnits(surface, frame.ratio, frame.margin);
+  drawLines(context, lines, styles, frame.viewport);
   context.restore();
 }

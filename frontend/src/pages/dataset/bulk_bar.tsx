@@ -1,4 +1,4 @@
-import { type FormEvent, useState } from "react";
+import { type FormEvent, useId, useState } from "react";
 import type { ImageChanges } from "../../api/endpoints";
 import type { Facets } from "../../api/types";
 import { Button, IconButton } from "../../design/button";
@@ -10,7 +10,10 @@ interface BulkBarProps {
   /** The selection is one of deleted images. */
   deleted: boolean;
   facets: Facets | undefined;
+  /** Names of those who have tasks already, or decided on something. */
+  people: readonly string[];
   onSet: (changes: ImageChanges) => Promise<boolean>;
+  onAssign: (person: string | null) => Promise<boolean>;
   onPrelabel: () => void;
   onDelete: () => void;
   onRestore: () => void;
@@ -19,7 +22,7 @@ interface BulkBarProps {
 
 /** What can be done with the selected images. */
 export function BulkBar(props: BulkBarProps) {
-  const { count, deleted, facets, onSet, onPrelabel, onDelete, onRestore, onClear } = props;
+  const { count, deleted, facets, people, onSet, onAssign, onPrelabel, onDelete, onRestore, onClear } = props;
   const sources = facets?.sources.flatMap(({ value }) => value ?? []) ?? [];
   const sequences = facets?.sequences.flatMap(({ value }) => value ?? []) ?? [];
   const cameras = facets?.cameras.map(({ name }) => name) ?? [];
@@ -42,6 +45,7 @@ export function BulkBar(props: BulkBarProps) {
           />
           <FieldPopover name="Source" known={sources} onSet={(source) => onSet({ source })} />
           <FieldPopover name="Sequence" known={sequences} onSet={(sequence) => onSet({ sequence })} />
+          <FieldPopover name="Task of" known={people} onSet={onAssign} />
           <Button small icon="play" onClick={onPrelabel}>
             Pre-label these
           </Button>
@@ -76,7 +80,7 @@ function FieldPopover({ name, known, required, onSet }: FieldPopoverProps) {
 function FieldForm({ name, known, required, onSet, close }: FieldPopoverProps & { close: () => void }) {
   const [text, setText] = useState("");
   const [busy, setBusy] = useState(false);
-  const listId = `known-${name.toLowerCase()}`;
+  const listId = useId();
   const submit = async (event: FormEvent) => {
     event.preventDefault();
     const wanted = text.trim();

@@ -145,6 +145,9 @@ function More({ dataset }: { dataset: Dataset }) {
           <Link className="menu-item dataset-header__link" to={`/datasets/${dataset.slug}/card`}>
             <Icon name="paper" /> Dataset card
           </Link>
+          <Link className="menu-item dataset-header__link" to={`/datasets/${dataset.slug}/suggestions`}>
+            <Icon name="lines" /> Suggestions
+          </Link>
           <Link className="menu-item dataset-header__link" to="?tab=splits">
             <Icon name="podium" /> Splits and leaderboards
           </Link>

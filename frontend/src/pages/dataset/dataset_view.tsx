@@ -1,5 +1,5 @@
 import { useQueryClient } from "@tanstack/react-query";
-import { useState } from "react";
+import { lazy, Suspense, useState } from "react";
 import { Link, useNavigate, useSearchParams } from "react-router";
 import { listImages } from "../../api/endpoints";
 import { keys } from "../../api/queries";
@@ -24,8 +24,13 @@ import { SplitsTab } from "./splits_tab";
 import { useFollow } from "./use_follow";
 import { useRuns } from "./use_runs";
 
+const TeamTab = lazy(async () => ({ default: (await import("./team/team_tab")).TeamTab }));
+const StatisticsTab = lazy(async () => ({
+  default: (await import("./statistics/statistics_tab")).StatisticsTab,
+}));
+
 const COUNTS_MS = 2_000;
-const TABS = ["images", "runs", "cameras", "splits"] as const;
+const TABS = ["images", "runs", "cameras", "splits", "team", "statistics"] as const;
 type Tab = (typeof TABS)[number];
 
 export function DatasetView({ dataset }: { dataset: Dataset }) {
@@ -90,6 +95,10 @@ export function DatasetView({ dataset }: { dataset: Dataset }) {
           {tab === "runs" ? <RunsTab slug={slug} runs={runs} onPrelabel={() => openPrelabel()} /> : null}
           {tab === "cameras" ? <CamerasTab slug={slug} /> : null}
           {tab === "splits" ? <SplitsTab dataset={dataset} /> : null}
+          <Suspense fallback={null}>
+            {tab === "team" ? <TeamTab dataset={dataset} /> : null}
+            {tab === "statistics" ? <StatisticsTab slug={slug} /> : null}
+          </Suspense>
         </>
       )}
       {rights.maintain ? <FileDrop label={`Drop to add to ${dataset.name}`} onPicked={pick} /> : null}
@@ -103,6 +112,8 @@ function Tabs({ tab, images, runs }: { tab: Tab; images: number; runs: number | 
     { name: "runs", text: "Runs", count: runs },
     { name: "cameras", text: "Cameras", count: undefined },
     { name: "splits", text: "Splits", count: undefined },
+    { name: "team", text: "Team", count: undefined },
+    { name: "statistics", text: "Statistics", count: undefined },
   ];
   return (
     <nav className="tabs" aria-label="Parts of the dataset">

@@ -6,6 +6,7 @@ import { Icon } from "../../design/icons";
 import { Segmented } from "../../design/segmented";
 import type { GridSize } from "./grid_layout";
 import { EVERYTHING, type ImageView, isFiltered, PRELABELS, SORTS, STATUSES } from "./image_view";
+import { MoreFilters } from "./more_filters";
 
 const TYPING_MS = 250;
 
@@ -28,6 +29,7 @@ const SORT_WORDS = {
 } as const;
 
 interface ImageFiltersProps {
+  slug: string;
   view: ImageView;
   facets: Facets | undefined;
   size: GridSize;
@@ -39,7 +41,7 @@ interface ImageFiltersProps {
 }
 
 export function ImageFilters(props: ImageFiltersProps) {
-  const { view, facets, size, countText, searchField, onChange, onSize } = props;
+  const { slug, view, facets, size, countText, searchField, onChange, onSize } = props;
   const sources = facets?.sources ?? [];
   const sequences = facets?.sequences ?? [];
   const cameras = facets?.cameras ?? [];
@@ -98,6 +100,7 @@ export function ImageFilters(props: ImageFiltersProps) {
           onChange={(sequence) => onChange({ sequence })}
         />
       ) : null}
+      <MoreFilters slug={slug} view={view} onChange={onChange} />
       {isFiltered(view) ? (
         <Button tone="quiet" icon="cross" onClick={() => onChange(EVERYTHING)}>
           Clear

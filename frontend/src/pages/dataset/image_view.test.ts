@@ -16,6 +16,11 @@ describe("the view in the address", () => {
       source: "A & B",
       sequence: "",
       camera: 3,
+      assignee: "",
+      person: "Mara",
+      verdict: "ambiguous",
+      min_score: 0.25,
+      max_score: 1,
       search: "0 0/ü",
       sort: "-candidates",
     } as const;
@@ -23,7 +28,11 @@ describe("the view in the address", () => {
   });
 
   it("leaves out what it can't mean", () => {
-    expect(readView(parse("status=gone&camera=x&camera=2&sort=age&prelabel="))).toEqual({
+    expect(
+      readView(
+        parse("status=gone&camera=x&camera=2&sort=age&prelabel=&verdict=best&min_score=2&max_score=x"),
+      ),
+    ).toEqual({
       ...EVERYTHING,
       sort: "name",
     });

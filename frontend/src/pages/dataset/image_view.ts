@@ -1,10 +1,11 @@
 /** What of a dataset's images is shown and in which order; it lives in the page's address. */
 
 import type { ImageFilter } from "../../api/endpoints";
-import type { PrelabelStatus, ReviewStatus } from "../../api/types";
+import type { PrelabelStatus, ReviewStatus, Verdict } from "../../api/types";
 
 export const STATUSES = ["open", "done", "discarded", "deleted"] as const;
 export const PRELABELS = ["none", "queued", "running", "done", "failed", "cancelled"] as const;
+export const VERDICTS = ["keep", "reject", "ambiguous", "undecided"] as const;
 export const SORTS = ["name", "-name", "-created", "created", "-candidates", "candidates"] as const;
 
 export interface ImageView {
@@ -14,11 +15,33 @@ export interface ImageView {
   source: string | null;
   sequence: string | null;
   camera: number | null;
+  /** Whose task; empty for images that are nobody's. */
+  assignee: string | null;
+  /** Who decided on some of the candidates. */
+  person: string | null;
+  /** That at least one candidate has. */
+  verdict: Verdict | null;
+  /** That at least one candidate's score lies between. */
+  min_score: number | null;
+  max_score: number | null;
   search: string;
   sort: (typeof SORTS)[number];
 }
 
-const NAMES = ["status", "prelabel", "source", "sequence", "camera", "search", "sort"] as const;
+const NAMES = [
+  "status",
+  "prelabel",
+  "source",
+  "sequence",
+  "camera",
+  "assignee",
+  "person",
+  "verdict",
+  "min_score",
+  "max_score",
+  "search",
+  "sort",
+] as const;
 
 /** The view that an address asks for; what it can't mean is left out. */
 export function readView(parameters: URLSearchParams): ImageView {
@@ -29,6 +52,11 @@ export function readView(parameters: URLSearchParams): ImageView {
     source: parameters.get("source"),
     sequence: parameters.get("sequence"),
     camera: Number.isInteger(camera) && camera > 0 ? camera : null,
+    assignee: parameters.get("assignee"),
+    person: parameters.get("person"),
+    verdict: oneOf(VERDICTS, parameters.get("verdict")),
+    min_score: scoreOf(parameters.get("min_score")),
+    max_score: scoreOf(parameters.get("max_score")),
     search: parameters.get("search") ?? "",
     sort: oneOf(SORTS, parameters.get("sort")) ?? "name",
   };
@@ -54,6 +82,11 @@ export const EVERYTHING: Omit<ImageView, "sort"> = {
   source: null,
   sequence: null,
   camera: null,
+  assignee: null,
+  person: null,
+  verdict: null,
+  min_score: null,
+  max_score: null,
   search: "",
 };
 
@@ -70,6 +103,11 @@ export function toFilter({ status, search, ...rest }: ImageView): ImageFilter {
     deleted: status === "deleted",
     search: search === "" ? null : search,
   };
+}
+
+function scoreOf(text: string | null): number | null {
+  const score = Number.parseFloat(text ?? "");
+  return score >= 0 && score <= 1 ? score : null;
 }
 
 function oneOf<T extends string>(known: readonly T[], value: string | null): T | null {

@@ -3,6 +3,7 @@ import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { useSearchParams } from "react-router";
 import { getFacets } from "../../api/endpoints";
 import { keys } from "../../api/queries";
+import { peopleQuery } from "../../api/team_endpoints";
 import type { Dataset, Run } from "../../api/types";
 import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
@@ -47,6 +48,7 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
   const actions = useImageActions(slug);
   // All that can be done with chosen images changes them.
   const { maintain: choosable } = useRights();
+  const people = useQuery({ ...peopleQuery(slug), enabled: choosable && selection.ids.size > 0 }).data ?? [];
   const tab = useRef<HTMLDivElement>(null);
   const searchField = useRef<HTMLInputElement>(null);
   const scroller = useRef<HTMLElement | null>(null);
@@ -103,6 +105,7 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
   return (
     <div ref={tab} className={`images-tab${ids.length > 0 ? " images-tab--choosing" : ""}`}>
       <ImageFilters
+        slug={slug}
         view={view}
         facets={facets.data}
         size={size}
@@ -149,7 +152,9 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
           count={ids.length}
           deleted={view.status === "deleted"}
           facets={facets.data}
+          people={people.map(({ person }) => person)}
           onSet={(changes) => actions.change(ids, changes)}
+          onAssign={(person) => actions.assign(ids, person)}
           onPrelabel={() => onPrelabel(ids)}
           onDelete={() => void removeSelected()}
           onRestore={async () => (await actions.restore(ids)) && clear()}

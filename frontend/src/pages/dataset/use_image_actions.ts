@@ -2,6 +2,7 @@ import { useQueryClient } from "@tanstack/react-query";
 import { useMemo } from "react";
 import { deleteImages, type ImageChanges, restoreImages, updateImages } from "../../api/endpoints";
 import { keys } from "../../api/queries";
+import { assignImages } from "../../api/team_endpoints";
 import { formatDay, formatQuantity } from "../../design/format";
 import { toast } from "../../design/toast";
 import { failed } from "../datasets/use_dataset_actions";
@@ -41,6 +42,17 @@ export function useImageActions(slug: string) {
         const { updated } = await updateImages(slug, ids, changes);
         toast({ tone: "success", message: `${formatQuantity(updated, "image")} changed.`, key: "images" });
       });
-    return { restore, remove, change };
+    const assign = (ids: number[], person: string | null) =>
+      doing(async () => {
+        await assignImages(slug, { people: person === null ? [] : [person], mode: "to", image_ids: ids });
+        const images = formatQuantity(ids.length, "image");
+        toast({
+          tone: "success",
+          message:
+            person === null ? `${images} nobody's in particular now.` : `${images} given to ${person}.`,
+          key: "images",
+        });
+      });
+    return { restore, remove, change, assign };
   }, [client, slug]);
 }

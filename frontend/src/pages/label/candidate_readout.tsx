@@ -2,6 +2,7 @@ import { HoverReadout } from "../../image_view/hover_readout";
 import type { PointerPlace } from "../../image_view/image_canvas";
 import { isBent, verdictAt } from "../../labelling/label_state";
 import type { LabelStore } from "../../labelling/label_store";
+import { SuggestionWords } from "./suggestions/suggestion_fact";
 import { useLabelState } from "./use_store";
 import { VerdictMark } from "./verdict_mark";
 
@@ -18,6 +19,7 @@ export function CandidateReadout({ store, pointer }: { store: LabelStore; pointe
       <span>{verdict}</span>
       <span className="numeric">{candidate.length.toFixed(0)} px</span>
       {candidate.score === null ? null : <span className="numeric">score {candidate.score.toFixed(2)}</span>}
+      <SuggestionWords suggesting={state.suggesting} index={index} />
     </HoverReadout>
   );
 }

@@ -1,9 +1,14 @@
+import { useMemo } from "react";
 import { Link, useParams } from "react-router";
+import { useRights } from "../../api/use_rights";
 import { buttonClass } from "../../design/button";
 import { PageFrame } from "../../design/page_frame";
 import { ErrorState, LoadingState } from "../../design/states";
 import { shortName } from "../../image_view/short_name";
 import { LabelWorkspace } from "./label_workspace";
+import { JudgingContext, judgingOf } from "./people/judging";
+import { Presence } from "./people/presence";
+import { useLease } from "./people/use_lease";
 import { SaveIndicator } from "./save_indicator";
 import { useLabelSession } from "./use_label_session";
 import "../../image_view/image_view.css";
@@ -14,6 +19,9 @@ export function LabelPage() {
   const { slug = "", imageId = "" } = useParams();
   const session = useLabelSession(slug, Number(imageId));
   const { image, error, retry } = session;
+  const { label: may } = useRights();
+  const lease = useLease(image?.id);
+  const judging = useMemo(() => judgingOf(may, lease.holder), [may, lease.holder]);
   return (
     <PageFrame
       scrolling={false}
@@ -22,10 +30,17 @@ export function LabelPage() {
         { label: image?.dataset.name ?? slug, to: `/datasets/${slug}` },
         { label: image === undefined ? "Image" : shortName(image.name) },
       ]}
-      actions={<SaveIndicator />}
+      actions={
+        <>
+          <Presence others={lease.others} />
+          <SaveIndicator />
+        </>
+      }
     >
       {image !== undefined ? (
-        <LabelWorkspace slug={slug} session={session} image={image} />
+        <JudgingContext value={judging}>
+          <LabelWorkspace slug={slug} session={session} image={image} lease={lease} />
+        </JudgingContext>
       ) : error ? (
         <ErrorState
           error={error}

@@ -1,37 +1,58 @@
 import { useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useRef, useState } from "react";
-import { displayUrl } from "../../api/endpoints";
 import type { ImageDetail } from "../../api/types";
-import { useRights } from "../../api/use_rights";
 import type { CanvasView } from "../../canvas/view";
 import { ErrorState } from "../../design/states";
 import { dismissToast, toast } from "../../design/toast";
 import { KeyList } from "../../image_view/key_list";
 import { LoadingNotice } from "../../image_view/loading_notice";
 import { type KeyHint, StatusStrip } from "../../image_view/status_strip";
-import { useImageBitmap } from "../../image_view/use_image_bitmap";
 import { useFocusBackAfterClick, useKeys } from "../../image_view/use_keys";
 import { COMMAND_GROUPS, COMMANDS, KEYMAP } from "../../labelling/commands";
 import type { LabelStore } from "../../labelling/label_store";
 import { outbox } from "../../labelling/outbox_start";
+import { cssFilter } from "../../labelling/views/image_look";
 import { Announcer } from "./announcer";
 import { CanvasRegion } from "./canvas_region";
+import { DrawButtons } from "./drawing/draw_buttons";
+import { TraceBanner } from "./drawing/trace_banner";
+import { type LatestEdit, useCarriedSelection } from "./drawing/use_carried_selection";
+import { useDrawing } from "./drawing/use_drawing";
+import { EDIT_TOAST, useEdits } from "./drawing/use_edits";
+import { usePointerPlaces } from "./drawing/use_pointer_places";
+import { GuidelinesBox } from "./guidelines/guidelines_box";
+import { HintTip } from "./hints/hint_tip";
+import { useNotedActions } from "./hints/use_noted_actions";
 import { focusJoin } from "./join_list";
+import { JumpBox } from "./jump/jump_box";
 import { NoCandidates } from "./no_candidates";
 import { LeftHint, ReviewBanner } from "./notices";
+import { useJudging } from "./people/judging";
+import { LeaseBanner } from "./people/lease_banner";
+import { StaleList } from "./people/stale_list";
+import type { Lease } from "./people/use_lease";
+import { RecallQuestion } from "./recall/recall_question";
 import { SidePanel } from "./side_panel";
+import { useSuggestions } from "./suggestions/use_suggestions";
+import { MANY_TOAST } from "./tools/judge_many";
+import { ToolBar } from "./tools/tool_bar";
+import { useToolActions } from "./tools/use_tool_actions";
+import { useToolBox } from "./tools/use_tool_box";
+import { useTools } from "./tools/use_tools";
 import { useHistory } from "./use_history";
 import { HISTORY_TOAST, REJECTED_TOAST, useLabelActions } from "./use_label_actions";
 import { annotationsKey, type LabelSession } from "./use_label_session";
 import { useOverlays } from "./use_overlays";
 import { useFirstSelection, useSegmentAddress } from "./use_segment_address";
 import { useLabelState, useSaveState } from "./use_store";
+import { useImageLook } from "./views/use_image_look";
 
 const HINTS: readonly KeyHint[] = [
   ["Tab", "next"],
   ["K", "keep"],
   ["X", "reject"],
   ["A", "ambiguous"],
+  ["S", "accept suggestions"],
   ["R", "reject the rest"],
   ["Enter", "done"],
 ];
@@ -46,23 +67,37 @@ interface LabelWorkspaceProps {
   slug: string;
   session: LabelSession;
   image: ImageDetail;
+  lease: Lease;
 }
 
-export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
+export function LabelWorkspace({ slug, session, image, lease }: LabelWorkspaceProps) {
   const { annotations, store } = session;
   const viewRef = useRef<CanvasView | null>(null);
   const regionRef = useRef<HTMLElement | null>(null);
   const panelRef = useRef<HTMLElement | null>(null);
   const [scale, setScale] = useState(1);
   const { shown, control } = useOverlays(image.id);
-  const { bitmap, error: bitmapError, retry } = useImageBitmap(displayUrl(image.id), image);
+  const seen = useImageLook(image, annotations?.scene ?? null);
+  const { bitmap, scene, error: bitmapError, retry } = seen;
   const leaveImage = useCallback(() => panelRef.current?.focus(), []);
   const enterImage = useCallback(() => regionRef.current?.focus({ preventScroll: true }), []);
   const stepJoin = useCallback((direction: 1 | -1) => focusJoin(panelRef.current, direction), []);
-  const whenHistoryKnown = useHistory(image.id, store);
-  const { label: judges } = useRights();
-  const actions = useLabelActions({
+  const whenHistoryKnown = useHistory(image.id, store, lease.news);
+  const { judges, why } = useJudging();
+  const tools = useToolActions(image, store);
+  const suggestions = useSuggestions(image.id, store, viewRef, judges);
+  const [latestEdit] = useState<LatestEdit>(() => ({ edit: null }));
+  const undoRef = useRef<(groupId: string) => void>(() => undefined);
+  const undoEdit = useCallback((groupId: string) => undoRef.current(groupId), []);
+  const edits = useEdits(image.id, latestEdit, undoEdit);
+  const pointer = usePointerPlaces(regionRef, viewRef);
+  const plain = seen.shown !== "undistorted";
+  const drawing = useDrawing({ judges, image, store, viewRef, pointer, edits, plain });
+  useTools({ judges, store, viewRef });
+  useToolBox(viewRef);
+  const unnoted = useLabelActions({
     judges,
+    why,
     slug,
     image,
     store,
@@ -71,11 +106,24 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
     enterImage,
     stepJoin,
     overlays: control,
+    views: seen.actions,
+    tools,
+    suggestions: suggestions.actions,
+    drawing: drawing.actions,
+    session: drawing.session,
+    replayedEdit: edits.replayed,
     whenHistoryKnown,
   });
+  const actions = useNotedActions(unnoted);
+  // Only this edit is meant: whatever was done since has to be undone first, by its own key.
+  undoRef.current = (groupId) =>
+    whenHistoryKnown(() => {
+      if (store?.getState().history.done.at(-1)?.id === groupId) actions.undo();
+    });
   useKeys(KEYMAP, actions);
   useFocusBackAfterClick(regionRef);
-  useFirstSelection(store);
+  const settled = useCarriedSelection(image.id, store, latestEdit);
+  useFirstSelection(store, settled);
   useSegmentAddress(store);
   useRefusedDecisions(image.id);
 
@@ -85,10 +133,16 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
     return () => {
       dismissToast(REJECTED_TOAST);
       dismissToast(HISTORY_TOAST);
+      dismissToast(MANY_TOAST);
+      dismissToast(EDIT_TOAST);
     };
   }, [image.id]);
 
-  const scene = annotations?.scene ?? null;
+  const closeJump = useCallback(() => {
+    control.toggleJump();
+    enterImage();
+  }, [control, enterImage]);
+
   const problem = bitmapError ?? session.error;
   const empty = store !== null && store.getState().candidates.length === 0;
   return (
@@ -101,12 +155,14 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           image={image}
           bitmap={bitmap}
           scene={scene}
+          filter={cssFilter(seen.look)}
           store={store}
           viewRef={viewRef}
           regionRef={regionRef}
           onScale={setScale}
         />
         {store ? <Announcer store={store} /> : null}
+        <ToolBar>{judges ? <DrawButtons tracing={drawing.tracing} actions={actions} /> : null}</ToolBar>
         <div className="image-notices">
           {problem ? (
             <div className="notice-card">
@@ -116,6 +172,7 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
             <LoadingNotice />
           ) : null}
           {empty && !problem ? <NoCandidates slug={slug} image={image} /> : null}
+          {drawing.tracing ? <TraceBanner session={drawing.session} /> : null}
           {store ? (
             <Banners
               store={store}
@@ -126,11 +183,23 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
               onClose={() => control.setLeftHint(false)}
             />
           ) : null}
+          {lease.holder ? <LeaseBanner holder={lease.holder} onTakeOver={lease.takeOver} /> : null}
+          {store ? <StaleList imageId={image.id} store={store} /> : null}
+          {shown.recall ? (
+            <RecallQuestion onAnswer={actions.answerRecall} onClose={() => control.setRecall(false)} />
+          ) : null}
         </div>
+        {shown.jump ? <JumpBox slug={slug} onGo={actions.goTo} onClose={closeJump} /> : null}
+        {shown.guidelines ? <GuidelinesBox slug={slug} onClose={control.toggleGuidelines} /> : null}
         {shown.keyList ? (
           <KeyList commands={COMMANDS} groups={COMMAND_GROUPS} onClose={control.toggleKeyList} />
         ) : null}
-        <StatusStrip hints={judges ? HINTS : LOOKING_HINTS} scale={scale} actions={actions} />
+        <StatusStrip
+          hints={judges ? HINTS : LOOKING_HINTS}
+          tip={judges && store ? <HintTip image={image} store={store} /> : null}
+          scale={scale}
+          actions={actions}
+        />
       </div>
       {store && scene ? (
         <SidePanel
@@ -141,7 +210,10 @@ export function LabelWorkspace({ slug, session, image }: LabelWorkspaceProps) {
           bitmap={bitmap}
           actions={actions}
           viewRef={viewRef}
-          stages={shown.stages}
+          suggestions={suggestions}
+          stages={shown.stages && seen.shown !== "undistorted"}
+          look={seen.look}
+          onLook={seen.setLook}
           discarding={shown.discarding && image.status !== "discarded"}
           panelRef={panelRef}
         />

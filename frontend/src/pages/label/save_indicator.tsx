@@ -57,6 +57,12 @@ function describe(state: SaveState): { icon: IconName; text: string; title: stri
             : `This browser stores nothing for this page, so keep the tab open: ${formatQuantity(state.waiting, "decision")} would be lost with it.`
         } Click to try now.`,
       };
+    case "stale":
+      return {
+        icon: "warning",
+        text: `${state.stale.length} kept here`,
+        title: "Others decided differently meanwhile; on the image you say whose verdict stands.",
+      };
     case "refused":
       return {
         icon: "warning",

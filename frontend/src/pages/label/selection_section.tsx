@@ -1,16 +1,22 @@
 import type { RefObject } from "react";
 import type { ImageDetail, SegmentFacts } from "../../api/types";
-import { useRights } from "../../api/use_rights";
 import type { Scene } from "../../canvas/scene";
 import { lineStyle, styleName } from "../../canvas/style";
 import type { CanvasView } from "../../canvas/view";
 import { IconButton } from "../../design/button";
 import { formatCount } from "../../design/format";
+import { usePalette } from "../../design/palette";
 import { copyLink } from "../../image_view/copy_link";
 import { Magnifier } from "../../image_view/magnifier";
-import { isBent, type LabelState, selectedPlace, verdictAt } from "../../labelling/label_state";
+import { isBent, type LabelState, reasonAt, selectedPlace, verdictAt } from "../../labelling/label_state";
+import { suggestedAt } from "../../labelling/suggestions/suggestions";
+import { EvidenceSection } from "./evidence/evidence_section";
 import { LookingOnly } from "./looking_only";
+import { useJudging } from "./people/judging";
+import { ReasonButtons } from "./selection/reason_buttons";
+import { SeveralSelected } from "./selection/several_selected";
 import { StageSection } from "./stage_section";
+import { SuggestionFact } from "./suggestions/suggestion_fact";
 import type { PageActions } from "./use_label_actions";
 import { addressOf } from "./use_segment_address";
 import { VerdictButtons } from "./verdict_buttons";
@@ -29,10 +35,14 @@ interface SelectionSectionProps {
 /** The selected candidate: close-ups, facts and the verdict. */
 export function SelectionSection(props: SelectionSectionProps) {
   const { image, state, scene, bitmap, actions, viewRef, stages } = props;
-  const { label: judges } = useRights();
+  const { judges, why } = useJudging();
+  const palette = usePalette();
   const { selected } = state;
   const candidate = selected === null ? undefined : state.candidates[selected];
   const verdict = selected === null ? null : verdictAt(state, selected);
+  const several = state.selection.length > 1;
+  const common = commonOf(state.selection.map((index) => verdictAt(state, index)));
+  const reason = commonOf(state.selection.map((index) => reasonAt(state, index)));
   return (
     <section className="panel-section" aria-label="Selected candidate">
       <div className="panel-heading">
@@ -40,7 +50,9 @@ export function SelectionSection(props: SelectionSectionProps) {
         <span className="panel-heading__end muted numeric">
           {selected === null
             ? "none selected"
-            : `${formatCount(selectedPlace(state) ?? 0)} of ${formatCount(state.candidates.length)}`}
+            : several
+              ? `${formatCount(state.selection.length)} selected`
+              : `${formatCount(selectedPlace(state) ?? 0)} of ${formatCount(state.candidates.length)}`}
           {candidate === undefined ? null : (
             <IconButton
               small
@@ -52,9 +64,19 @@ export function SelectionSection(props: SelectionSectionProps) {
           )}
         </span>
       </div>
-      <VerdictButtons current={verdict} onJudge={actions.judge} />
-      {judges ? null : <LookingOnly />}
-      {candidate === undefined || selected === null || verdict === null ? (
+      <VerdictButtons current={several ? (common ?? "several") : verdict} onJudge={actions.judge} />
+      {judges ? (
+        <ReasonButtons
+          current={reason ?? null}
+          disabled={selected === null}
+          onChoose={actions.chooseReason}
+        />
+      ) : (
+        <LookingOnly why={why ?? ""} />
+      )}
+      {several ? (
+        <SeveralSelected state={state} />
+      ) : candidate === undefined || selected === null || verdict === null ? (
         <p className="muted panel-hint">Click a line or press Tab to select one.</p>
       ) : (
         <>
@@ -62,8 +84,15 @@ export function SelectionSection(props: SelectionSectionProps) {
             scene={scene}
             bitmap={bitmap}
             index={selected}
-            colour={lineStyle(styleName(verdict, isBent(state, selected))).colour}
+            colour={
+              lineStyle(
+                styleName(verdict, isBent(state, selected), suggestedAt(state.suggesting, selected)),
+                palette,
+              ).colour
+            }
           />
+          <SuggestionFact suggesting={state.suggesting} index={selected} />
+          <EvidenceSection imageId={image.id} segmentId={candidate.id} />
           <Facts candidate={candidate} />
           {judges ? (
             <StageSection
@@ -82,6 +111,18 @@ export function SelectionSection(props: SelectionSectionProps) {
   );
 }
 
+/** What all have in common; undefined where they differ, or there are none. */
+function commonOf<T>(values: readonly T[]): T | undefined {
+  const [first] = values;
+  return values.every((value) => value === first) ? first : undefined;
+}
+
+const ORIGINS: Readonly<Record<SegmentFacts["origin"], string>> = {
+  pipeline: "pipeline",
+  manual: "drawn by hand",
+  import: "imported",
+};
+
 function Facts({ candidate }: { candidate: SegmentFacts }) {
   const facts: [string, string, string?][] = [
     ["Length", `${candidate.length.toFixed(1)} px`],
@@ -89,7 +130,7 @@ function Facts({ candidate }: { candidate: SegmentFacts }) {
     ["Score", number(candidate.score), "Evidence for an edge, 0 to 1"],
     ["Residual", withUnit(candidate.residual), "RMS deviation from straight after undistortion"],
     ["Straightness", number(candidate.straightness), "Probability of being straight under the lens"],
-    ["Origin", candidate.origin],
+    ["Origin", ORIGINS[candidate.origin]],
   ];
   return (
     <>

@@ -9,13 +9,20 @@ import { Keys } from "../../design/kbd";
 import { Segmented } from "../../design/segmented";
 import type { Shown } from "../../labelling/label_state";
 import type { LabelStore } from "../../labelling/label_store";
-import { REVIEW_ORDER_NAMES, REVIEW_ORDERS, type ReviewOrder } from "../../labelling/order";
-import { readPreferences, writePreferences } from "../../labelling/preferences";
+import { REVIEW_ORDER_NAMES, REVIEW_ORDERS } from "../../labelling/order";
+import type { ImageLook } from "../../labelling/views/image_look";
+import { changeShown } from "./change_shown";
+import { RangeSection } from "./filter/range_section";
 import { ImageSection } from "./image_section";
 import { ProgressSection } from "./progress_section";
 import { SelectionSection } from "./selection_section";
+import { changeOrder } from "./suggestions/change_order";
+import { SuggestionSection } from "./suggestions/suggestion_section";
+import type { SuggestionSession } from "./suggestions/use_suggestions";
+import { judgeMany } from "./tools/judge_many";
 import type { PageActions } from "./use_label_actions";
 import { useLabelState } from "./use_store";
+import { ViewSection } from "./views/view_section";
 
 interface SidePanelProps {
   slug: string;
@@ -25,9 +32,12 @@ interface SidePanelProps {
   bitmap: ImageBitmap | null;
   actions: PageActions;
   viewRef: RefObject<CanvasView | null>;
+  suggestions: SuggestionSession;
   /** Whether it is told how the selected candidate was found. */
   stages: boolean;
   discarding: boolean;
+  look: ImageLook;
+  onLook: (look: ImageLook) => void;
   panelRef: RefObject<HTMLElement | null>;
 }
 
@@ -39,27 +49,33 @@ export function SidePanel({
   bitmap,
   actions,
   viewRef,
+  suggestions,
   stages,
   discarding,
+  look,
+  onLook,
   panelRef,
 }: SidePanelProps) {
   const state = useLabelState(store);
   const { label: judges } = useRights();
 
-  function changeShown(shown: Shown): void {
-    store.setShown(shown);
-    writePreferences(localStorage, { ...readPreferences(localStorage), shown });
-  }
-
-  function changeOrder(order: ReviewOrder): void {
-    store.setOrder(order);
-    writePreferences(localStorage, { ...readPreferences(localStorage), order });
-  }
+  const onShown = (shown: Shown) => changeShown(store, shown);
 
   return (
     <aside className="image-panel" aria-label="Review" ref={panelRef} tabIndex={-1} id="label-panel">
       <div className="image-panel__scroll">
-        <ProgressSection state={state} onShown={changeShown} />
+        <ProgressSection state={state} onShown={onShown} />
+        {state.candidates.length > 0 ? (
+          <RangeSection
+            state={state}
+            onShown={onShown}
+            onSelect={(indices) => store.selectAll(indices)}
+            onReject={(indices) => judgeMany(store, indices, "reject")}
+          />
+        ) : null}
+        {judges && state.candidates.length > 0 ? (
+          <SuggestionSection slug={slug} state={state} viewRef={viewRef} session={suggestions} />
+        ) : null}
         <SelectionSection
           image={image}
           state={state}
@@ -69,9 +85,9 @@ export function SidePanel({
           viewRef={viewRef}
           stages={stages}
         />
-        <section className="panel-section panel-section--row" aria-label="Order of review">
+        <section className="panel-section" aria-label="Order of review">
           <span className="field__label" aria-hidden="true">
-            Order
+            Order of review <Keys keys={["O"]} />
           </span>
           <Segmented
             label="Order of review"
@@ -82,9 +98,10 @@ export function SidePanel({
               label: REVIEW_ORDER_NAMES[order].short,
               title: REVIEW_ORDER_NAMES[order].whole,
             }))}
-            onChange={changeOrder}
+            onChange={(order) => changeOrder(store, order)}
           />
         </section>
+        <ViewSection look={look} onChange={onLook} />
         <ImageSection
           slug={slug}
           image={image}

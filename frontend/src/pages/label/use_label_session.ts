@@ -3,15 +3,19 @@
 import { type QueryClient, queryOptions, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useEffect, useMemo, useRef } from "react";
 import { displayUrl } from "../../api/endpoints";
-import { imageQuery, keys } from "../../api/queries";
+import { imageQuery, keys, suggestionsQuery } from "../../api/queries";
 import type { ImageDetail } from "../../api/types";
+import { linePainter } from "../../canvas/line_painter_start";
+import { getPalette } from "../../design/palette";
 import { imageLoader } from "../../image_view/use_image_bitmap";
 import { type Annotations, loadAnnotations } from "../../labelling/annotations";
+import { candidateLook } from "../../labelling/candidate_look";
 import type { LabelStore } from "../../labelling/label_store";
 import { openLabelStore } from "../../labelling/open_store";
-import { onDecisionsStored, outbox } from "../../labelling/outbox_start";
+import { onDecisionsStored, outbox, seenDecisions } from "../../labelling/outbox_start";
 import { readPreferences } from "../../labelling/preferences";
 import { stopwatch } from "../../labelling/stopwatch_start";
+import { NOTHING_TOUCHED } from "../../labelling/tools/preview";
 
 const POLL = 1_500;
 
@@ -21,14 +25,26 @@ const annotationsQuery = (imageId: number) =>
   queryOptions({
     queryKey: annotationsKey(imageId),
     queryFn: async () => {
-      await outbox.ready;
-      // What was decided here a moment ago is in the answer then; without a network the fetch says so itself.
-      if (outbox.pendingFor(imageId).length > 0) await outbox.flush().catch(() => undefined);
-      return loadAnnotations(imageId);
+      const annotations = await loadAnnotations(imageId, sent(imageId));
+      prepareLines(annotations);
+      return annotations;
     },
     // The store made of it is the truth from here on; fetching again would throw its selection away.
     staleTime: Number.POSITIVE_INFINITY,
   });
+
+/** What was decided here a moment ago is in the answer then; without a network the fetch says so itself. */
+async function sent(imageId: number): Promise<void> {
+  await outbox.ready;
+  if (outbox.pendingFor(imageId).length > 0) await outbox.flush().catch(() => undefined);
+}
+
+/** Has the lines drawn as they will be seen when the image is opened. */
+function prepareLines(annotations: Annotations): void {
+  const { imageWidth: width, imageHeight: height, scene } = annotations;
+  const look = candidateLook(openStore(annotations).getState(), NOTHING_TOUCHED, getPalette());
+  linePainter.prepare(scene, look, { width, height });
+}
 
 export interface LabelSession {
   image: ImageDetail | undefined;
@@ -93,13 +109,14 @@ function storeOf(annotations: Annotations): LabelStore {
 
 function openStore(annotations: Annotations): LabelStore {
   const { order, shown } = readPreferences(localStorage);
+  seenDecisions.raise(annotations.imageId, annotations.lastDecisionId);
   return openLabelStore(annotations, {
     pending: outbox.pendingFor(annotations.imageId),
     order,
     shown,
     stopwatch,
     newId: () => crypto.randomUUID(),
-    record: (decisions) => outbox.add(annotations.imageId, decisions),
+    record: (decisions) => outbox.add(annotations.imageId, decisions, seenDecisions.of(annotations.imageId)),
   });
 }
 
@@ -140,6 +157,7 @@ async function prefetch(queryClient: QueryClient, id: number): Promise<void> {
   if (image === null) return;
   await Promise.all([
     queryClient.prefetchQuery(annotationsQuery(id)),
+    queryClient.prefetchQuery(suggestionsQuery(id)),
     imageLoader.prefetch(displayUrl(id), image),
   ]);
 }

@@ -19,15 +19,19 @@ export function addressOf(segmentId: number | null): string {
   return address.href;
 }
 
-/** Starts with the candidate that the address names, else with the first undecided one. */
-export function useFirstSelection(store: LabelStore | null): void {
+/**
+ * Starts with the candidate that the address names, else with the first undecided one.
+ *
+ * @param settled Stores whose selection is as it should be, be it none.
+ */
+export function useFirstSelection(store: LabelStore | null, settled: WeakSet<LabelStore>): void {
   useEffect(() => {
-    if (store === null || store.getState().selected !== null) return;
+    if (store === null || settled.has(store) || store.getState().selected !== null) return;
     const wanted = segmentInAddress();
     const index = wanted === null ? null : store.indexOfSegment(wanted);
     if (index !== null) store.select(index, { follow: true });
     else store.selectFirstUndecided();
-  }, [store]);
+  }, [store, settled]);
 }
 
 /** Keeps the selected candidate in the address, so that it can be shared; the history gets no entries of it. */

@@ -1,8 +1,7 @@
 import type { Verdict } from "../../api/types";
-import { useRights } from "../../api/use_rights";
 import { Icon, type IconName } from "../../design/icons";
 import { Keys } from "../../design/kbd";
-import { LOOKING_ONLY } from "./looking_only";
+import { useJudging } from "./people/judging";
 import "./verdict_buttons.css";
 
 const BUTTONS: readonly { verdict: Verdict; label: string; caps: string; icon: IconName }[] = [
@@ -13,18 +12,15 @@ const BUTTONS: readonly { verdict: Verdict; label: string; caps: string; icon: I
 ];
 
 interface VerdictButtonsProps {
-  current: Verdict | null;
+  /** Of the selected candidates; null where nothing is selected. */
+  current: Verdict | "several" | null;
   onJudge: (verdict: Verdict) => void;
 }
 
 export function VerdictButtons({ current, onJudge }: VerdictButtonsProps) {
-  const { label: judges } = useRights();
+  const { judges, why } = useJudging();
   return (
-    <fieldset
-      className="verdict-buttons"
-      disabled={current === null || !judges}
-      title={judges ? undefined : LOOKING_ONLY}
-    >
+    <fieldset className="verdict-buttons" disabled={current === null || !judges} title={why ?? undefined}>
       <legend className="visually-hidden">Verdict on the selected candidate</legend>
       {BUTTONS.map(({ verdict, label, caps, icon }) => (
         <button

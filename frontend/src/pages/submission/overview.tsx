@@ -9,7 +9,7 @@ import { intervalText, metricOf, metricText } from "../metrics";
 import { ErrorTypes } from "./error_types_chart";
 import { F1GridTable } from "./f1_grid_table";
 import { currentScores, currentTotals, headline } from "./scores";
-import { readErrorTypes, readStrata } from "./strata";
+import { readErrorTypes, readReasons, readStrata } from "./strata";
 import { StrataCharts } from "./strata_charts";
 import { TotalsTable } from "./totals_table";
 
@@ -21,7 +21,9 @@ export function Overview({ submission }: { submission: Submission }) {
     return <EmptyState icon="clock" title="No numbers yet" />;
   }
   const strata = readStrata(submission.strata);
-  const errors = readErrorTypes(submission.error_types);
+  const reasons = readReasons(submission.strata);
+  const types = readErrorTypes(submission.error_types);
+  const errors = reasons === null ? types : [...types, reasons];
   return (
     <>
       <ul className="headline">

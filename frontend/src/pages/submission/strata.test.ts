@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { readErrorTypes, readStrata } from "./strata";
+import { readErrorTypes, readReasons, readStrata } from "./strata";
 
 const stratum = (name: string, tp: number) => ({
   name,
@@ -31,6 +31,31 @@ describe("strata", () => {
   it("may be absent or something else", () => {
     for (const given of [null, undefined, [], "x", { length: null }, { length: [{}, 3] }]) {
       expect(readStrata(given)).toEqual([]);
+    }
+  });
+});
+
+describe("reasons of rejections", () => {
+  const reason = [
+    { name: "shadow", tp: 0, fp: 1, fn: 0, candidates: 1, share: { value: 1, low: null, high: null } },
+    { name: "car", tp: 0, fp: 3, fn: 0, candidates: 40, share: { value: 0.075, low: 0.03, high: 0.15 } },
+  ];
+
+  it("tell which false positives people had rejected, beside the strata and not among them", () => {
+    const given = { reason, length: [stratum("a", 5), stratum("b", 2)] };
+    expect(readStrata(given).map(({ kind }) => kind)).toEqual(["length"]);
+    expect(readReasons(given)).toMatchObject({
+      total: 4,
+      errors: [
+        { name: "Car", count: 3, meaning: "of 40 such lines: 8 % (3 to 15 %)" },
+        { name: "Shadow", count: 1, meaning: "of 1 such line: 100 %" },
+      ],
+    });
+  });
+
+  it("may be absent or something else", () => {
+    for (const given of [null, {}, { reason: [] }, { reason: [3, { name: "rain" }] }, { reason: "car" }]) {
+      expect(readReasons(given)).toBeNull();
     }
   });
 });

@@ -1,7 +1,8 @@
 /** Parts of a result: strata of lines, and types of errors. */
 
 import type { Measured } from "../../api/board_types";
-import { capitalized } from "../../design/format";
+import { capitalized, formatQuantity } from "../../design/format";
+import { REASON_NAMES, REASONS } from "../../labelling/reasons";
 import { type ErrorType, FALSE_NEGATIVES, FALSE_POSITIVES } from "../error_type_names";
 
 export interface Stratum {
@@ -27,10 +28,14 @@ const TITLES: Record<string, string> = {
   distance: "By distance from the centre",
 };
 
+/** A kind of its own: of lines that people rejected there are false positives and nothing else. */
+const REASON = "reason";
+
 /** What the server says of strata; kinds without lines, or with one stratum alone, say nothing and are left out. */
 export function readStrata(given: unknown): StrataOfKind[] {
   if (!isRecord(given)) return [];
   return Object.entries(given).flatMap(([kind, list]) => {
+    if (kind === REASON) return [];
     const strata = Array.isArray(list) ? list.flatMap((entry) => readStratum(entry) ?? []) : [];
     const filled = strata.filter(({ tp, fp, fn }) => tp + fp + fn > 0);
     return filled.length < 2 ? [] : [{ kind, title: TITLES[kind] ?? `By ${kind}`, strata: filled }];
@@ -68,6 +73,32 @@ export function readErrorTypes(given: unknown): ErrorsOfSide[] {
     side("False positives: predictions that found no label", FALSE_POSITIVES),
     side("False negatives: labels that weren't found", FALSE_NEGATIVES),
   ];
+}
+
+/** False positives that are lines which people rejected with a reason; null where no such lines are known. */
+export function readReasons(given: unknown): ErrorsOfSide | null {
+  const list = isRecord(given) && Array.isArray(given[REASON]) ? given[REASON].filter(isRecord) : [];
+  const errors = REASONS.flatMap((reason) => {
+    const found = list.find(({ name }) => name === reason);
+    if (found === undefined) return [];
+    const candidates = formatQuantity(Number(found.candidates ?? 0), "such line");
+    const meaning = `of ${candidates}${shareText(readMeasured(found.share))}`;
+    return [{ type: reason, name: REASON_NAMES[reason], meaning, count: Number(found.fp ?? 0) }];
+  });
+  if (errors.length === 0) return null;
+  return {
+    title: "False positives on lines that people rejected",
+    total: errors.reduce((sum, { count }) => sum + count, 0),
+    errors,
+  };
+}
+
+/** ": 8 % (3 to 15 %)", nothing where it isn't known. */
+function shareText({ value, low, high }: Measured): string {
+  const percent = (share: number) => Math.round(100 * share);
+  if (value === null) return "";
+  const interval = low === null || high === null ? "" : ` (${percent(low)} to ${percent(high)} %)`;
+  return `: ${percent(value)} %${interval}`;
 }
 
 function readStratum(entry: unknown): Stratum | null {

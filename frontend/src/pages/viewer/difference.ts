@@ -57,13 +57,12 @@ export function liesOn(
   const box = scene.boxes[index];
   const near = box === undefined ? [] : other.places.touching(growBox(box, TOLERANCE), accept);
   const boxes = near.map((line) => growBox(other.boxes[line] as Box, TOLERANCE));
-  const simple = other.atScale(FINE);
   const isNear = (x: number, y: number) =>
     near.some((line, place) => {
       const { minX, minY, maxX, maxY } = boxes[place] as Box;
       if (x < minX || x > maxX || y < minY || y > maxY) return false;
-      const [first, end] = [at(simple.offsets, line), at(simple.offsets, line + 1)];
-      return distanceToPolyline(simple.coordinates, first, end, x, y) <= TOLERANCE;
+      const simple = other.line(line, FINE);
+      return distanceToPolyline(simple, 0, simple.length / 2, x, y) <= TOLERANCE;
     });
   const { coordinates, offsets } = scene.polylines;
   const first = at(offsets, index);

@@ -1,11 +1,12 @@
 import { MATCH_STYLES, type Palette } from "../../canvas/match_style";
 import { Button, IconButton } from "../../design/button";
+import { capitalized } from "../../design/format";
 import { Keys } from "../../design/kbd";
 import { LineMark } from "../../image_view/line_mark";
 import { Magnifier } from "../../image_view/magnifier";
 import { errorTypeOf } from "../error_type_names";
 import { LAYER_NAMES } from "./layers";
-import { degrees, lineTitle, pixels, ratio } from "./match_text";
+import { degrees, lineTitle, pixels, ratio, rejectionText } from "./match_text";
 import type { MatchedImage, MatchedLine } from "./matched_image";
 
 /** Whether the selected line can be sent to the review queue, and whether it has been. */
@@ -37,6 +38,7 @@ export function LineSection(props: LineSectionProps) {
   }
   const style = MATCH_STYLES[palette].plain[line.layer];
   const error = errorTypeOf(line.errorType);
+  const rejected = rejectionText(line);
   const partner = line.partner === null ? undefined : image.lines[line.partner];
   return (
     <section className="panel-section" aria-label="Selected line">
@@ -53,6 +55,11 @@ export function LineSection(props: LineSectionProps) {
       {error === null ? null : (
         <p className="panel-note error-note">
           <strong>{error.name}.</strong> {error.why}
+        </p>
+      )}
+      {rejected === null ? null : (
+        <p className="panel-hint" title="When the labels were made">
+          {capitalized(rejected)}
         </p>
       )}
       <Magnifier scene={image.scene} bitmap={bitmap} index={line.index} colour={style.colour} />

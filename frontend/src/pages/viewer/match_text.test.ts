@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { degrees, describeLine, lineTitle, pixels } from "./match_text";
+import { degrees, describeLine, lineTitle, pixels, rejectionText } from "./match_text";
 import { matched } from "./test_images";
 
 describe("texts of scored lines", () => {
@@ -14,6 +14,12 @@ describe("texts of scored lines", () => {
       "1.00°",
       "–",
     ]);
+  });
+
+  it("say why people rejected the line that a false positive is", () => {
+    const image = matched([], [{ row: [0, 100, 10], rejected_as: "lane_marking" }, { row: [0, 100, 90] }]);
+    expect(image.lines.map(rejectionText)).toEqual(["rejected by hand as: lane marking", null]);
+    expect(describeLine(image.lines[0] ?? null, null, 1)).toContain(", rejected by hand as: lane marking,");
   });
 
   it("say to screen readers what is selected", () => {

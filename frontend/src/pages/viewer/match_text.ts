@@ -1,5 +1,6 @@
 /** What is said of scored lines. */
 
+import { REASON_NAMES } from "../../labelling/reasons";
 import { errorTypeOf } from "../error_type_names";
 import { LAYER_NAMES } from "./layers";
 import type { MatchedLine } from "./matched_image";
@@ -21,6 +22,11 @@ export function ratio(value: number | null): string {
   return value === null ? "–" : value.toFixed(2);
 }
 
+/** What people said of the line that a false positive is, when the labels were made; null where they said nothing. */
+export function rejectionText({ rejectedAs }: Pick<MatchedLine, "rejectedAs">): string | null {
+  return rejectedAs === null ? null : `rejected by hand as: ${REASON_NAMES[rejectedAs].toLowerCase()}`;
+}
+
 /** What a screen reader says of the selected line. */
 export function describeLine(line: MatchedLine | null, place: number | null, errors: number): string {
   if (line === null) return "No line selected";
@@ -28,6 +34,8 @@ export function describeLine(line: MatchedLine | null, place: number | null, err
   if (place !== null) parts.push(`error ${place} of ${errors}`);
   const error = errorTypeOf(line.errorType);
   if (error !== null) parts.push(error.name);
+  const rejected = rejectionText(line);
+  if (rejected !== null) parts.push(rejected);
   parts.push(`${Math.round(line.length)} pixels long`);
   if (line.liou !== null) parts.push(`L I O U ${line.liou.toFixed(2)}`);
   if (line.offset !== null) parts.push(`${line.offset.toFixed(1)} pixels beside`);

@@ -1,5 +1,6 @@
 /** One scored image: its labels and predictions with their points, in the order of the scene. */
 
+import type { RejectReason } from "../../api/types";
 import type { ScoredImageDetail, ScoredLabel, ScoredPrediction } from "../../api/viewer_types";
 import type { Polylines } from "../../canvas/decode";
 import { makeScene, type Scene } from "../../canvas/scene";
@@ -20,6 +21,8 @@ export interface MatchedLine {
   /** rad */
   readonly angle: number | null;
   readonly errorType: string | null;
+  /** Why people rejected the line that a false positive is. */
+  readonly rejectedAs: RejectReason | null;
   /** Index in the scene of the line that the LIoU is with. */
   readonly partner: number | null;
 }
@@ -91,6 +94,7 @@ function labelLine(
     offset: best?.offset ?? null,
     angle: best?.angle ?? null,
     errorType: label.error_type,
+    rejectedAs: null,
     partner: best === undefined ? null : place(labels + best.index),
   };
 }
@@ -113,6 +117,7 @@ function predictionLine(
     offset: prediction.offset,
     angle: prediction.angle,
     errorType: prediction.error_type,
+    rejectedAs: prediction.rejected_as,
     partner: near ? place(label) : null,
   };
 }

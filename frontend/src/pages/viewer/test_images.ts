@@ -50,6 +50,7 @@ export function detailOf(
       offset: null,
       angle: null,
       error_type: null,
+      rejected_as: null,
       ...facts,
     })),
     review_target: null,

@@ -3,6 +3,8 @@ import { useEffect, useMemo, useReducer } from "react";
 import { submissionQuery } from "../../api/board_queries";
 import type { Submission } from "../../api/board_types";
 import { ALL_BY_NAME, type ImageList } from "../../api/viewer_endpoints";
+import { matchPalette } from "../../canvas/match_style";
+import { getPalette, setPalette } from "../../design/palette";
 import { useImageBitmap } from "../../image_view/use_image_bitmap";
 import { differenceOf, type Side } from "./difference";
 import { errorSequence } from "./errors";
@@ -21,7 +23,10 @@ export type Viewer = ReturnType<typeof useViewer>;
 /** All that the viewer knows: what is fetched, what is chosen, and what follows from both. */
 export function useViewer(submission: Submission, imageId: number) {
   const [state, dispatch] = useReducer(changeState, imageId, (id) =>
-    startState(id, readAddress(window.location.search), readPreferences(localStorage)),
+    startState(id, readAddress(window.location.search), {
+      ...readPreferences(localStorage),
+      palette: matchPalette(getPalette()),
+    }),
   );
   // The address of the images goes through history; what is chosen on one of them doesn't.
   const { sort, search } = readAddress(window.location.search);
@@ -30,7 +35,8 @@ export function useViewer(submission: Submission, imageId: number) {
     dispatch({ type: "opened", imageId, segment: readAddress(window.location.search).segment });
   }, [imageId]);
   const { order, palette } = state;
-  useEffect(() => writePreferences(localStorage, { order, palette }), [order, palette]);
+  useEffect(() => writePreferences(localStorage, { order }), [order]);
+  useEffect(() => setPalette(palette === "safe" ? "safe" : "standard"), [palette]);
 
   const other = useQuery({ ...submissionQuery(state.other ?? 0), enabled: state.other !== null });
   const a = useMatchedImage(submission.id, imageId, list, true);

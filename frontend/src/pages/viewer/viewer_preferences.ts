@@ -1,11 +1,9 @@
 /** How a person likes to look at errors, kept in this browser. */
 
-import { PALETTES, type Palette } from "../../canvas/match_style";
 import { DEFAULT_ORDER, ERROR_ORDERS, type ErrorOrder } from "./errors";
 
 export interface ViewerPreferences {
   readonly order: ErrorOrder;
-  readonly palette: Palette;
 }
 
 const STORAGE_KEY = "clearlines.viewer";
@@ -14,7 +12,6 @@ export function readPreferences(storage: Storage): ViewerPreferences {
   const stored = parsed(storage);
   return {
     order: ERROR_ORDERS.find((known) => known === stored.order) ?? DEFAULT_ORDER,
-    palette: PALETTES.find((known) => known === stored.palette) ?? "paper",
   };
 }
 

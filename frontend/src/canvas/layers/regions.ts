@@ -8,9 +8,6 @@ import { toImage, toScreen, type Viewport } from "../viewport";
 const LINE_REACH = 5;
 /** A line is covered by this many boxes at most: one box around a diagonal would be mostly empty. */
 const PIECES = 10;
-/** Lines per tile that can be drawn within one frame. */
-const LINES_PER_TILE = 60;
-const MOST_TILES = 40;
 
 /** The canvas px that show an image box. */
 export function canvasBox(box: Box, viewport: Viewport, ratio: number, margin: number): Box {
@@ -30,25 +27,6 @@ export function imageBox(box: Box, viewport: Viewport, ratio: number, margin: nu
   const bottomRight = toImage(viewport, (box.maxX - margin) / ratio, (box.maxY - margin) / ratio);
   const seen = { minX: topLeft.x, minY: topLeft.y, maxX: bottomRight.x, maxY: bottomRight.y };
   return growBox(seen, LINE_REACH / viewport.scale);
-}
-
-/** A bitmap cut into as many tiles as its lines ask for, from top to bottom. */
-export function tilesOf(width: number, height: number, lines: number): Box[] {
-  const wanted = Math.min(MOST_TILES, Math.max(1, Math.ceil(lines / LINES_PER_TILE)));
-  const rows = Math.max(1, Math.round(Math.sqrt((wanted * height) / width)));
-  const columns = Math.max(1, Math.ceil(wanted / rows));
-  const tiles: Box[] = [];
-  for (let row = 0; row < rows; row++) {
-    for (let column = 0; column < columns; column++) {
-      tiles.push({
-        minX: Math.round((column * width) / columns),
-        minY: Math.round((row * height) / rows),
-        maxX: Math.round(((column + 1) * width) / columns),
-        maxY: Math.round(((row + 1) * height) / rows),
-      });
-    }
-  }
-  return tiles;
 }
 
 /** Image boxes that together cover a polyline closely. */

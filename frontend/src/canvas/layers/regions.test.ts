@@ -1,28 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { makeScene } from "../scene";
-import { boxesAlong, canvasBox, imageBox, tilesOf } from "./tiles";
+import { boxesAlong, canvasBox, imageBox } from "./regions";
 
 const viewport = { scale: 2.5, offsetX: -31, offsetY: 17 };
-
-describe("tiles", () => {
-  it.each([
-    [1, 1],
-    [60, 1],
-    [2000, 34],
-    [100_000, 40],
-  ])("of %d lines are at least the number needed", (lines, least) => {
-    expect(tilesOf(1900, 1400, lines).length).toBeGreaterThanOrEqual(least);
-    expect(tilesOf(1900, 1400, lines).length).toBeLessThanOrEqual(2 * least + 2);
-  });
-
-  it("cover the bitmap without overlap", () => {
-    const tiles = tilesOf(1901, 1403, 2000);
-    const area = tiles.reduce((sum, t) => sum + (t.maxX - t.minX) * (t.maxY - t.minY), 0);
-    expect(area).toBe(1901 * 1403);
-    expect(Math.max(...tiles.map((t) => t.maxX))).toBe(1901);
-    expect(Math.max(...tiles.map((t) => t.maxY))).toBe(1403);
-  });
-});
 
 describe("boxes", () => {
   it("lie on whole canvas px and leave room for the line's width", () => {

@@ -1,0 +1,69 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { ImageLoader, requireStoredSize } from "./image_loader";
+
+const LARGE = { width: 6000, height: 4000 };
+let asked: string[] = [];
+let working = true;
+
+beforeEach(() => {
+  asked = [];
+  working = true;
+  vi.stubGlobal("fetch", async (url: string) => {
+    asked.push(url);
+    return working ? new Response(url) : new Response(null, { status: 500 });
+  });
+  vi.stubGlobal("createImageBitmap", async () => LARGE);
+});
+
+afterEach(() => vi.unstubAllGlobals());
+
+describe("images", () => {
+  it("are fetched once, whatever their address says of the view", async () => {
+    const loader = new ImageLoader();
+    const [first, again] = [loader.load("/display?view=clahe"), loader.load("/display?view=clahe")];
+    expect(again).toBe(first);
+    await loader.load("/display");
+    expect(asked).toEqual(["/display?view=clahe", "/display"]);
+  });
+
+  it("can be looked at without waiting once they are there", async () => {
+    const loader = new ImageLoader();
+    const loading = loader.load("a");
+    expect(loader.peek("a")).toBe(null);
+    expect(loader.peek("b")).toBe(null);
+    const bitmap = await loading;
+    expect(loader.peek("a")).toBe(bitmap);
+  });
+
+  it("are forgotten, the longest unused first, when they are too many", async () => {
+    const loader = new ImageLoader();
+    await loader.load("a");
+    await loader.load("b");
+    await loader.load("a");
+    await loader.load("c");
+    expect(["a", "b", "c"].map((url) => loader.peek(url) !== null)).toEqual([true, false, true]);
+  });
+
+  it("aren't loaded ahead when the shown one would have to go", async () => {
+    const loader = new ImageLoader();
+    await loader.prefetch("huge", { width: 8000, height: 5000 });
+    expect(asked).toEqual([]);
+    await loader.prefetch("large", LARGE);
+    expect(asked).toEqual(["large"]);
+  });
+
+  it("are asked for again after a failure", async () => {
+    const loader = new ImageLoader();
+    working = false;
+    await expect(loader.load("a")).rejects.toThrow();
+    working = true;
+    await loader.load("a");
+    expect(asked).toEqual(["a", "a"]);
+  });
+
+  it("are refused in another size than they are stored in", () => {
+    const bitmap = LARGE as ImageBitmap;
+    expect(() => requireStoredSize(bitmap, LARGE)).not.toThrow();
+    expect(() => requireStoredSize(bitmap, { width: 4000, height: 6000 })).toThrow("6000 × 4000");
+  });
+});

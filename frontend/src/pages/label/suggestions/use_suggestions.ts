@@ -1,0 +1,64 @@
+import { useQuery } from "@tanstack/react-query";
+import { type RefObject, useEffect, useMemo, useState } from "react";
+import { suggestionsQuery } from "../../../api/queries";
+import type { SuggestionModelName } from "../../../api/types";
+import type { CanvasView } from "../../../canvas/view";
+import type { LabelStore } from "../../../labelling/label_store";
+import type { SuggestionActions } from "../../../labelling/suggestions/commands_suggestions";
+import {
+  readSuggestionPreferences,
+  type SuggestionPreferences,
+  thresholdsFor,
+  writeSuggestionPreferences,
+} from "../../../labelling/suggestions/preferences";
+import { byCandidate, type Thresholds } from "../../../labelling/suggestions/suggestions";
+import { suggestionActions } from "./suggestion_actions";
+
+export interface SuggestionSession {
+  readonly model: SuggestionModelName | null;
+  /** What the model recommends; null as long as nothing is known. */
+  readonly recommended: Thresholds | null;
+  readonly failed: boolean;
+  readonly preferences: SuggestionPreferences;
+  readonly prefer: (preferences: SuggestionPreferences) => void;
+  readonly actions: SuggestionActions;
+}
+
+/** Brings an image's suggestions into its store; one model for as long as the image is open. */
+export function useSuggestions(
+  imageId: number,
+  store: LabelStore | null,
+  viewRef: RefObject<CanvasView | null>,
+  judges: boolean,
+): SuggestionSession {
+  // After the candidates, without which nothing is seen: on a small machine their server works it out.
+  const query = useQuery({ ...suggestionsQuery(imageId), enabled: judges && store !== null });
+  const { data } = query;
+  const [preferences, setPreferences] = useState(() => readSuggestionPreferences(localStorage));
+
+  const of = useMemo(
+    () => (data === undefined || store === null ? null : byCandidate(store.getState().candidates, data)),
+    [data, store],
+  );
+  useEffect(() => {
+    if (store === null || of === null || data === undefined) return;
+    const thresholds = thresholdsFor(preferences, data.thresholds);
+    store.setSuggesting({ of, thresholds, shown: preferences.shown });
+  }, [store, of, data, preferences]);
+
+  const known = of !== null;
+  return useMemo(() => {
+    const prefer = (next: SuggestionPreferences) => {
+      setPreferences(next);
+      writeSuggestionPreferences(localStorage, next);
+    };
+    return {
+      model: data?.model ?? null,
+      recommended: data?.thresholds ?? null,
+      failed: query.isError,
+      preferences,
+      prefer,
+      actions: suggestionActions({ store, viewRef, known, preferences, prefer }),
+    };
+  }, [data, query.isError, store, viewRef, known, preferences]);
+}

@@ -1,0 +1,48 @@
+import { type RefObject, useEffect } from "react";
+import type { Verdict } from "../../../api/types";
+import { COLOURS } from "../../../canvas/palette";
+import type { CanvasView } from "../../../canvas/view";
+import { getPalette } from "../../../design/palette";
+import type { LabelStore } from "../../../labelling/label_store";
+import { BrushTool } from "../../../labelling/tools/brush_tool";
+import { LassoTool } from "../../../labelling/tools/lasso_tool";
+import { preview, toolBox } from "../../../labelling/tools/tools_start";
+import { judgeMany } from "./judge_many";
+
+interface ToolParts {
+  /** Whether verdicts may be given at all. */
+  judges: boolean;
+  store: LabelStore | null;
+  viewRef: RefObject<CanvasView | null>;
+}
+
+/** Puts the tools for an image's candidates into the tool box. */
+export function useTools({ judges, store, viewRef }: ToolParts): void {
+  useEffect(() => {
+    if (store === null) return;
+    const view = () => viewRef.current;
+    const brush = (verdict: Verdict) =>
+      new BrushTool({
+        verdict,
+        colour: () => COLOURS[getPalette()][verdict],
+        view,
+        preview,
+        judge: (indices) => judgeMany(store, indices, verdict),
+      });
+    const lasso = new LassoTool({
+      view,
+      preview,
+      select: (indices, additional) =>
+        store.selectAll(additional ? [...store.getState().selection, ...indices] : indices),
+    });
+    const stops = [toolBox.add("lasso", lasso)];
+    if (judges) {
+      stops.push(toolBox.add("keep-brush", brush("keep")), toolBox.add("reject-brush", brush("reject")));
+    }
+    return () => {
+      viewRef.current?.cancelDrag();
+      preview.clear();
+      for (const stop of stops) stop();
+    };
+  }, [judges, store, viewRef]);
+}
