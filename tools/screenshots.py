@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,7 +11,9 @@ import time
 import urllib.error
 import urllib.request
 from pathlib import Path
+from random import Random
 from typing import Any
+from uuid import uuid4
 
 from playwright.sync_api import Browser, Page, sync_playwright
 
@@ -22,11 +25,19 @@ SPLIT = "demo-streets"
 WIDE = (1440, 900)
 NARROW = (900, 700)
 LONGEST = 20
+GUIDELINES = "Edges of buildings, kerbs, poles and markings count. Cars, reflections and plants do not."
+
+
+def ask(method: str, path: str, body: object = None, *, person: str = "owner") -> Any:
+    headers = {"Content-Type": "application/json", "X-ClearLines-Person": person}
+    content = None if body is None else json.dumps(body).encode()
+    request = urllib.request.Request(f"{ADDRESS}/api{path}", content, headers, method=method)
+    with urllib.request.urlopen(request, timeout=30) as answer:
+        return json.load(answer)
 
 
 def get(path: str) -> Any:
-    with urllib.request.urlopen(f"{ADDRESS}/api{path}", timeout=30) as answer:
-        return json.load(answer)
+    return ask("GET", path)
 
 
 def wait_for_candidates(server: subprocess.Popen[bytes], slug: str) -> None:
@@ -72,10 +83,16 @@ def take_all(browser: Browser, slug: str) -> None:
     images = get(f"/datasets/{slug}/images")["items"]
     label = f"/datasets/{slug}/images"
     page = open_page(browser, f"{label}/{images[0]['id']}")
-    for key in "kkxkkakkkxkk":  # so that every verdict is seen
+    wait_for_suggestions(page)
+    for key in "kkxkkakkkxkk":  # so that every verdict is seen, beside what is suggested
         page.keyboard.press(key)
-    page.keyboard.press("Escape")
     take(page, "label")
+    page = open_page(browser, f"{label}/{images[3]['id']}")
+    wait_for_suggestions(page)
+    page.keyboard.press("s")
+    with page.expect_response("**/display?view=undistorted"):
+        page.keyboard.press("v")
+    take(page, "label-straight")
     take_history(browser, f"{label}/{images[1]['id']}", images[1]["id"])
     page = open_page(browser, f"{label}/{images[5]['id']}", dark=True)
     page.keyboard.press("k")
@@ -87,6 +104,44 @@ def take_all(browser: Browser, slug: str) -> None:
     take(open_page(browser, f"/datasets/{slug}?tab=runs"), "runs")
     take(open_page(browser, f"/datasets/{slug}?tab=cameras"), "cameras")
     take(open_page(browser, "/docs/api"), "api")
+    review_twice(slug, images[6:10])
+    take(open_page(browser, f"/datasets/{slug}?tab=team"), "team")
+
+
+def review_twice(slug: str, images: list[dict[str, Any]]) -> None:
+    """Let two people judge the same images, who differ now and then."""
+    random = Random(0)
+    people = ["Mara", "Jon"]
+    ask("PATCH", f"/datasets/{slug}", {"guidelines": GUIDELINES, "rules": {"second_share": 1.0, "ask_recall": False}})
+    for image in images:
+        address = f"/images/{image['id']}"
+        segments = get(f"{address}/segments")["segments"]
+        verdicts = {each["id"]: "keep" if each["score"] > 0.45 and each["straight"] else "reject" for each in segments}
+        ask("POST", f"{address}/decisions", {"decisions": decisions(verdicts, random)}, person=people[0])
+        ask("PUT", f"{address}/review", {"status": "done"}, person=people[0])
+        second = f"/second-reviews/{ask('POST', f'{address}/second-review', person=people[1])['id']}"
+        for segment in random.sample(sorted(verdicts), len(verdicts) // 12):
+            verdicts[segment] = "reject" if verdicts[segment] == "keep" else "keep"
+        ask("POST", f"{second}/decisions", {"decisions": decisions(verdicts, random)}, person=people[1])
+        ask("PUT", f"{second}/review", {"status": "done"}, person=people[1])
+    ask("POST", f"/datasets/{slug}/assign", {"people": people, "mode": "shares"})
+
+
+def decisions(verdicts: dict[int, str], random: Random) -> list[dict[str, Any]]:
+    return [
+        {
+            "client_id": str(uuid4()),
+            "group_id": str(uuid4()),
+            "segment_id": segment,
+            "verdict": verdict,
+            "elapsed_ms": round(1000 * random.lognormvariate(-0.2, 0.6)),
+        }
+        for segment, verdict in verdicts.items()
+    ]
+
+
+def wait_for_suggestions(page: Page) -> None:
+    page.get_by_role("button", name=re.compile(r"^Keep \d+, reject")).wait_for()
 
 
 def take_history(browser: Browser, path: str, image: int) -> None:

@@ -10,7 +10,7 @@ from fastapi.responses import FileResponse
 from app.api.deps import Server
 from app.api.freshness import fresh_headers, is_held, not_modified
 from app.errors import NotFound
-from app.images import for_browser, thumbnail
+from app.images import for_browser, shown_as_stored, thumbnail
 from app.services.image_views import ViewedImage, render_view
 
 PIXELS = {200: {"content": {"image/*": {"schema": {"type": "string", "format": "binary"}}}}}
@@ -47,7 +47,12 @@ def display_answer(server: Server, sha256: str, if_none_match: str | None) -> Re
     tag = f"{sha256}-display"
     if is_held(if_none_match, tag):
         return not_modified(tag)
-    content, media_type = for_browser(server.blobs.read(sha256), max_pixels=server.settings.max_image_pixels)
+    most = server.settings.max_image_pixels
+    content = server.blobs.read(sha256)
+    media_type = shown_as_stored(content, max_pixels=most)
+    if media_type is None:
+        with server.decoding.place():
+            content, media_type = for_browser(content, max_pixels=most)
     return Response(content, media_type=media_type, headers=fresh_headers(tag))
 
 

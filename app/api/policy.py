@@ -32,7 +32,6 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /datasets/{slug}/card",
         "GET /datasets/{slug}/card.png",
         "GET /datasets/{slug}/guidelines",
-        "GET /datasets/{slug}/suggestions",
         "GET /images/{image_id}",
         "GET /images/{image_id}/original",
         "GET /images/{image_id}/display",
@@ -77,6 +76,7 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /segments/{segment_id}/history",  # runs the detector
         "GET /images/{image_id}/neighbour_verdicts",  # matches whole frames
         "GET /images/{image_id}/suggestions",  # may look at all candidates
+        "GET /datasets/{slug}/suggestions",  # counts all that was judged
         "POST /datasets/{slug}/suggestions/train",
         "POST /images/{image_id}/decisions",
         "POST /images/{image_id}/edits",

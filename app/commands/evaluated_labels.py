@@ -8,8 +8,9 @@ import numpy as np
 
 from app.commands.segment_files import Read, SegmentFiles
 from app.evaluation import GroundTruth, ground_truth
-from app.evaluation.rejected_lines import REASONS, RejectedLines
+from app.evaluation.rejected_lines import RejectedLines
 from app.formats.labelled import LabelledSegments
+from app.verdicts import REASONS
 from app.vision.segments import Segments
 
 

@@ -18,10 +18,8 @@ from numpy.typing import NDArray
 from app.errors import ClearLinesError, InvalidFile, InvalidSegments
 from app.evaluation.bootstrap import estimates
 from app.evaluation.matching import match_segments
+from app.verdicts import REASONS
 from app.vision.segments import Segments
-
-REASONS = ("car", "lane_marking", "curved", "shadow", "other")
-"""Why a candidate is rejected: the hard cases of the paper."""
 
 REASON = "reason"
 """The kind of these strata, beside those of `app.evaluation.strata`."""

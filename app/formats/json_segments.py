@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import InvalidFile, InvalidInput, InvalidSegments, TooLarge
-from app.formats.labelled import ORIGINS, REASONS, VERDICTS, LabelledSegments
+from app.formats.labelled import ORIGINS, LabelledSegments
 from app.formats.limits import SEGMENT_LIMITS, SET_LIMITS, SegmentLimits, SetLimits
 from app.formats.naming import check_names, composed, has_control_characters
 from app.formats.polylines import check_counts, check_file_size, segments_from_arrays
+from app.verdicts import REASONS, VERDICTS
 from app.vision.segments import Segments
 
 WORD_LIMIT = 200

@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.errors import InvalidSegments
+from app.verdicts import REASONS, VERDICTS
 from app.vision.segments import Segments
 
-VERDICTS = ("keep", "reject", "ambiguous", "undecided")
 ORIGINS = ("pipeline", "manual", "import")
-REASONS = ("car", "lane_marking", "curved", "shadow", "other")
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from app.errors import ClearLinesError, InvalidFile, TooLarge
 from app.formats.inert_npy import array_from_npy
-from app.formats.labelled import VERDICTS, LabelledSegments
+from app.formats.labelled import LabelledSegments
 from app.formats.limits import SEGMENT_LIMITS, SET_LIMITS, SegmentLimits, SetLimits
 from app.formats.naming import check_names, composed
 from app.formats.polylines import check_coordinates, check_counts, check_file_size
 from app.formats.zips import open_zip, read_member
+from app.verdicts import VERDICTS
 from app.vision.segments import Segments
 
 MEMBER_LIMIT = 32

@@ -3,7 +3,7 @@
 Pixels count as stored: an orientation in the file's EXIF or TIFF tags is applied nowhere, alpha is ignored.
 """
 
-from app.images.browser import for_browser, thumbnail
+from app.images.browser import for_browser, shown_as_stored, thumbnail
 from app.images.decode import decode_display, decode_eight_bit, decode_gray
 from app.images.header import MAX_PIXELS, ImageHeader, describe
 
@@ -15,5 +15,6 @@ __all__ = [
     "decode_gray",
     "describe",
     "for_browser",
+    "shown_as_stored",
     "thumbnail",
 ]

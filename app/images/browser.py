@@ -15,11 +15,10 @@ THUMBNAIL_TYPE = "image/webp"
 THUMBNAIL_QUALITY = 80
 
 
-def for_browser(data: bytes, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, str]:
-    """Return bytes that a browser shows pixel by pixel as the image is stored, and their media type.
+def shown_as_stored(data: bytes, *, max_pixels: int = MAX_PIXELS) -> str | None:
+    """Return the media type of a file that a browser shows as it is; ``None`` where its pixels must be decoded.
 
-    The file itself, if it is 8-bit PNG, JPEG, WebP or BMP that no EXIF orientation turns and no alpha veils; else an
-    8-bit PNG of its pixels.
+    Such a file is 8-bit PNG, JPEG, WebP or BMP that no EXIF orientation turns and no alpha veils.
 
     Raises:
         InvalidImage: If it can't be read.
@@ -27,8 +26,22 @@ def for_browser(data: bytes, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, st
     """
     header = describe(data, max_pixels=max_pixels)
     opaque = header.channels in (1, 3)
-    if header.format in SHOWN_AS_STORED and header.bits == 8 and header.orientation == 1 and opaque:
-        return data, header.media_type
+    as_stored = header.format in SHOWN_AS_STORED and header.bits == 8 and header.orientation == 1 and opaque
+    return header.media_type if as_stored else None
+
+
+def for_browser(data: bytes, *, max_pixels: int = MAX_PIXELS) -> tuple[bytes, str]:
+    """Return bytes that a browser shows pixel by pixel as the image is stored, and their media type.
+
+    The file itself where a browser shows it as it is; else an 8-bit PNG of its pixels.
+
+    Raises:
+        InvalidImage: If it can't be read.
+        TooLarge: If it has more pixels than accepted.
+    """
+    media_type = shown_as_stored(data, max_pixels=max_pixels)
+    if media_type is not None:
+        return data, media_type
     # filtering and a quick deflate: a page waits for this
     fast = [cv2.IMWRITE_PNG_COMPRESSION, 2]
     return encode(".png", decode_eight_bit(data, max_pixels=max_pixels), fast), "image/png"

@@ -30,6 +30,7 @@ from app.services.decision_batch import (
 from app.services.edit_replays import edited_away, replay_edits
 from app.services.images import get_image
 from app.services.stale_verdicts import OtherVerdict, last_decision_id, require_fresh, verdicts_of_others
+from app.services.successors import successors_of
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ def decide(
     wishes = new_wishes(session, ledger, decisions)
     segments = segments_named(session, image.id, wishes)
     require_known_groups(session, ledger, wishes)
-    successors = _successors(session, segments)
+    successors = successors_of(session, segments)
     if seen is not None:
         require_fresh(session, image.id, wishes, successors, seen, person)
     rows = _with_carried(session, image, segments, successors, wishes, person, now)
@@ -151,21 +152,6 @@ def _with_carried(
             segment.retired_at = None
             image.revision += 1
     return rows
-
-
-def _successors(session: Session, segments: Mapping[int, Segment]) -> dict[int, Segment]:
-    """Return the last segment of each chain of replacements, for the segments that were replaced."""
-    last = {key: segment for key, segment in segments.items() if segment.retired_at and segment.replaced_by_id}
-    open_ends = dict(last)
-    while open_ends:
-        wanted = {segment.replaced_by_id for segment in open_ends.values()}
-        found = {row.id: row for row in session.scalars(select(Segment).where(Segment.id.in_(wanted)))}
-        open_ends = {
-            key: found[segment.replaced_by_id] for key, segment in open_ends.items() if segment.replaced_by_id in found
-        }
-        last.update(open_ends)
-        open_ends = {key: row for key, row in open_ends.items() if row.retired_at and row.replaced_by_id}
-    return {key: segment for key, segment in last.items() if segment.id != key}
 
 
 def _verdicts(session: Session, segment_ids: set[int]) -> dict[int, str]:

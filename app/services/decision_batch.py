@@ -10,9 +10,10 @@ from uuid import UUID
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import REASONS, VERDICTS, Decision, SecondDecision, Segment
+from app.db.models import Decision, SecondDecision, Segment
 from app.errors import Conflict, InvalidInput, TooLarge
 from app.services.batches import in_batches
+from app.verdicts import REASONS, VERDICTS
 
 MOST_DECISIONS = 5_000
 KINDS = ("judge", "accept", "take_over", "undo", "redo")

@@ -12,7 +12,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Camera, Dataset, Image, Review, Segment, SegmentState, Split, SplitImage, SplitVersion
 from app.errors import Conflict
-from app.evaluation.rejected_lines import REASONS, RejectedLines
+from app.evaluation.rejected_lines import RejectedLines
 from app.formats.labelled import LabelledSegments
 from app.formats.npz import write_npz_set
 from app.services.batches import in_batches
@@ -22,6 +22,7 @@ from app.services.concealing import hidden_contents, open_contents
 from app.services.images import images_of
 from app.services.truths import MEDIA_TYPE, counted_labels, truth_hash
 from app.storage import BlobStore
+from app.verdicts import REASONS
 from app.vision.segments import Segments
 
 POINT = np.dtype("<f4")

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from sqlalchemy import ColumnElement, exists
 
-from app.db.models import VERDICTS, Decision, Image, Segment
+from app.db.models import Decision, Image, Segment
 from app.errors import InvalidInput
 from app.services.candidates import is_current
 from app.services.people import WORK
+from app.verdicts import VERDICTS
 
 
 def candidate_conditions(

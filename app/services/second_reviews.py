@@ -1,27 +1,23 @@
-"""Second reviews: a share of the images is judged again by another person, who is told nothing of the first review.
-
-Which images these are follows from their content, so that nobody chooses them and the same share is the same images
-wherever the dataset is imported.
-"""
+"""Second reviews: a share of the images is judged again by another person, who is told nothing of the first review."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime
 
-from sqlalchemy import ColumnElement, Select, exists, func, select
+from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import SECOND_REVIEW_STATES, Dataset, Decision, Image, Review, SecondReview
+from app.db.models import SECOND_REVIEW_STATES, Dataset, Image, Review, SecondReview
 from app.errors import Conflict, Forbidden, InvalidInput, NotFound, UndecidedLeft
 from app.services.dataset_rules import rules_of
+from app.services.due_second_reviews import DueImage, due_images
 from app.services.events import record_event
 from app.services.images import get_image
-from app.services.people import WORK, first_reviewers
+from app.services.people import first_reviewers
 from app.services.second_verdicts import second_counts
 from app.services.stale_verdicts import last_decision_id
 
-HEX_DIGITS = 8
 MOST_LISTED = 1_000
 
 
@@ -35,15 +31,6 @@ class SecondReviewTaken(Conflict):
     """Another person reviews the image a second time already."""
 
     code = "second-review-taken"
-
-
-@dataclass(frozen=True)
-class DueImage:
-    """An image that waits for a second review."""
-
-    image_id: int
-    name: str
-    candidates: int
 
 
 @dataclass(frozen=True)
@@ -81,17 +68,10 @@ class SecondReviews:
     reviews: tuple[SecondReviewEntry, ...]
 
 
-def is_in_share(share: float) -> ColumnElement[bool]:
-    """Return the condition on ``Image`` that its content is in the share: the first digits of its hash decide."""
-    if share >= 1.0:
-        return Image.id.is_not(None)
-    return func.substr(Image.sha256, 1, HEX_DIGITS) < f"{round(share * 16**HEX_DIGITS):0{HEX_DIGITS}x}"
-
-
 def second_reviews_of(session: Session, dataset: Dataset, person: str | None) -> SecondReviews:
     """Return the second reviews of a dataset, and what a person can begin with."""
     share = rules_of(dataset).second_share
-    due = _due(dataset, share, person)
+    due = due_images(dataset, share, person)
     total = session.scalar(due.with_only_columns(func.count(Image.id))) or 0
     found = session.execute(due.order_by(Image.name, Image.id).limit(MOST_LISTED))
     begun = session.execute(
@@ -205,25 +185,6 @@ def set_second_review(
         record_event(session, "second-review.changed", now, dataset_id=image.dataset_id, person=person, details=details)
         session.flush()
     return _entry(review, image.name, person)
-
-
-def _due(dataset: Dataset, share: float, person: str | None) -> Select[int, str, int]:
-    decided = exists().where(Decision.image_id == Image.id, Decision.person == person, Decision.kind.in_(WORK))
-    begun = exists().where(SecondReview.image_id == Image.id)
-    return (
-        select(Image.id, Image.name, Image.n_candidates)
-        .join(Review, Review.image_id == Image.id)
-        .where(
-            Image.dataset_id == dataset.id,
-            Image.deleted_at.is_(None),
-            Image.n_candidates > 0,
-            is_in_share(share),
-            Review.status == "done",
-            Review.person.is_distinct_from(person),
-            ~decided.correlate(Image),
-            ~begun.correlate(Image),
-        )
-    )
 
 
 def _require_blind(session: Session, image: Image, person: str | None) -> None:

@@ -22,6 +22,7 @@ from app.services.decision_batch import (
     segments_named,
 )
 from app.services.labelling import SegmentEntry, segments_of_image
+from app.services.successors import last_of_each, successors_of
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,8 @@ class SecondSegments:
     Attributes:
         revision: Of the image.
         status: Of the second review.
-        segments: In the order of ``points_of_image``. They tell neither reasons nor where they come from: a segment
-            that was drawn by hand was kept by whoever drew it.
+        segments: In the order of ``points_of_image``, without those that a hand drew: whoever did kept them. They tell
+            neither reasons nor where they come from.
     """
 
     second_review_id: int
@@ -51,7 +52,7 @@ class SecondStored:
     Attributes:
         stored: Decisions that are new.
         repeated: Decisions that were known by their client id.
-        verdicts: The image's current segments by verdict of this review.
+        verdicts: The image's current segments, without those that a hand drew, by verdict of this review.
         status: Of this review.
     """
 
@@ -75,6 +76,7 @@ def second_segments(session: Session, review: SecondReview) -> SecondSegments:
         tuple(
             entry._replace(verdict=mine.get(entry.id, "undecided"), reason=None, origin="pipeline")
             for entry in image.segments
+            if entry.origin != "manual"
         ),
     )
 
@@ -98,20 +100,22 @@ def decide_second(
     """
     ledger = second_ledger(review.id)
     wishes = new_wishes(session, ledger, decisions)
-    segments_named(session, review.image_id, wishes)
+    successors = successors_of(session, segments_named(session, review.image_id, wishes))
     require_known_groups(session, ledger, wishes)
     if wishes and review.status == "done":
         raise Conflict("this second review is done", hint="open it again first")
     verdicts = latest_verdicts(session, review.id)
     rows: list[SecondDecision] = []
     for wish in wishes:
+        successor = successors.get(wish.segment_id)
+        stands_for = wish.segment_id if successor is None else successor.id
         rows.append(
             SecondDecision(
                 second_review_id=review.id,
                 segment_id=wish.segment_id,
                 person=person,
                 verdict=wish.verdict,
-                previous=verdicts.get(wish.segment_id, "undecided"),
+                previous=verdicts.get(stands_for, "undecided"),
                 kind=wish.kind,
                 client_id=wish.client_id,
                 group_id=wish.group_id,
@@ -120,7 +124,7 @@ def decide_second(
                 created_at=now,
             )
         )
-        verdicts[wish.segment_id] = wish.verdict
+        verdicts[stands_for] = wish.verdict
     session.add_all(rows)
     session.flush()
     counts = second_counts(session, review)
@@ -134,20 +138,28 @@ def second_history(session: Session, review: SecondReview) -> Sequence[SecondDec
 
 
 def second_counts(session: Session, review: SecondReview) -> VerdictCounts:
-    """Return the image's current segments by verdict of a second review."""
+    """Return the image's current segments, without those that a hand drew, by verdict of a second review."""
     verdicts = latest_verdicts(session, review.id)
-    current = session.scalars(select(Segment.id).where(Segment.image_id == review.image_id, is_current()))
+    of_image = (Segment.image_id == review.image_id) & (Segment.origin != "manual")
+    current = session.scalars(select(Segment.id).where(of_image, is_current()))
     return VerdictCounts(**Counter(verdicts.get(segment_id, "undecided") for segment_id in current))
 
 
 def latest_verdicts(session: Session, second_review_id: int) -> dict[int, str]:
-    """Return the standing verdicts of a second review by segment."""
+    """Return the standing verdicts of a second review by segment.
+
+    Those on segments that runs replaced stand for the segments that took their place.
+    """
+    of_review = SecondDecision.second_review_id == second_review_id
+    last = last_of_each(select(SecondDecision.segment_id).where(of_review), "succession")
     latest = (
-        select(func.max(SecondDecision.id))
-        .where(SecondDecision.second_review_id == second_review_id)
-        .group_by(SecondDecision.segment_id)
+        select(last.c.last_id, func.max(SecondDecision.id).label("id"))
+        .join(SecondDecision, SecondDecision.segment_id == last.c.segment_id)
+        .where(of_review)
+        .group_by(last.c.last_id)
+        .subquery()
     )
     rows = session.execute(
-        select(SecondDecision.segment_id, SecondDecision.verdict).where(SecondDecision.id.in_(latest))
+        select(latest.c.last_id, SecondDecision.verdict).join(SecondDecision, SecondDecision.id == latest.c.id)
     )
     return dict(rows.all())

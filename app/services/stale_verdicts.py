@@ -80,6 +80,8 @@ def require_fresh(
     successors: Mapping[int, Segment],
     seen: int,
     person: str | None,
+    *,
+    where: str = "decisions",
 ) -> None:
     """Refuse verdicts that would silently overrule another person's.
 
@@ -90,6 +92,7 @@ def require_fresh(
         successors: Of segments that a run replaced: the segment that the verdict goes over to.
         seen: Id of the image's last decision that the person knew.
         person: Who decides.
+        where: The field of the request that the wishes come from.
 
     Raises:
         StaleVerdict: With yours and theirs for each wish that is in conflict.
@@ -107,7 +110,7 @@ def require_fresh(
         raise StaleVerdict(
             f"{', '.join(people[:3])} decided on {'the same segment' if segments == 1 else f'{segments} of these'} "
             "meanwhile",
-            where="decisions",
+            where=where,
             hint="look at both verdicts, then send yours again with the decision that you have seen",
             details={"conflicts": conflicts},
         )

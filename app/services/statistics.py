@@ -11,17 +11,17 @@ from typing import TypeVar
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import REASONS, REVIEW_STATES, VERDICTS, Dataset, Image, Review, Segment, SegmentState
+from app.db.models import REVIEW_STATES, Dataset, Image, Review, Segment, SegmentState
 from app.review.agreement import Kappa
 from app.services.agreements import agreement_of
 from app.services.counts import ReviewCounts
 from app.services.decision_batch import REPLAYS
-from app.services.time_bins import EDGES, histogram, quantiles
-from app.services.work_logs import HourKey, HourWork, TimeKey, WorkLog
+from app.services.decision_times import DecisionTimes, VerdictTimes, times_of, verdict_times
+from app.services.time_bins import EDGES
+from app.services.work_logs import HourKey, HourWork, WorkLog
+from app.verdicts import REASONS, VERDICTS
 
 Key = TypeVar("Key")
-
-QUARTILES = (0.25, 0.5, 0.75)
 
 
 @dataclass(frozen=True)
@@ -43,30 +43,6 @@ class HourProgress:
 
     hour: datetime
     decisions: int
-
-
-@dataclass(frozen=True)
-class DecisionTimes:
-    """How long key presses took, ms.
-
-    Attributes:
-        count: Key presses that tell it.
-        histogram: Their numbers by ``Statistics.edges``.
-    """
-
-    count: int
-    lower_quartile: float | None
-    median: float | None
-    upper_quartile: float | None
-    histogram: tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class VerdictTimes:
-    """How long it took to give a verdict."""
-
-    verdict: str
-    times: DecisionTimes
 
 
 @dataclass(frozen=True)
@@ -172,8 +148,8 @@ def statistics_of(session: Session, dataset: Dataset, log: WorkLog) -> Statistic
         days=_days(session, dataset, by_hour),
         hours=tuple(HourProgress(_hour(hour), work.decisions) for hour, work in sorted(by_hour.items())),
         edges=EDGES,
-        times=_times(log, lambda _: True),
-        verdicts=tuple(_verdict_times(log, verdict) for verdict in VERDICTS if verdict != "undecided"),
+        times=times_of(log, lambda _: True),
+        verdicts=tuple(verdict_times(log, verdict) for verdict in VERDICTS if verdict != "undecided"),
         people=_people(log, judged),
         suggestions=SuggestionUse(
             total.shown, total.agreed, _sum(work for key, work in judged.items() if key[3] == "accept").decisions
@@ -208,23 +184,10 @@ def _people(log: WorkLog, judged: dict[HourKey, HourWork]) -> tuple[PersonWork, 
             undone=undone[person],
             hours=work.milliseconds / 3_600_000,
             per_hour=_per_hour(work),
-            times=_times(log, lambda key, person=person: key[0] == person),
+            times=times_of(log, lambda key, person=person: key[0] == person),
         )
         for person, work in sorted(by_person.items(), key=lambda item: (item[0] is None, item[0]))
     )
-
-
-def _verdict_times(log: WorkLog, verdict: str) -> VerdictTimes:
-    return VerdictTimes(verdict, _times(log, lambda key: key[1] == verdict))
-
-
-def _times(log: WorkLog, wanted: Callable[[TimeKey], bool]) -> DecisionTimes:
-    counts = Counter[int]()
-    for key, number in log.times.items():
-        if wanted(key):
-            counts[key[2]] += number
-    low, median, high = quantiles(counts, QUARTILES)
-    return DecisionTimes(counts.total(), low, median, high, tuple(histogram(counts)))
 
 
 def _reasons(session: Session, dataset: Dataset) -> tuple[ReasonCount, ...]:

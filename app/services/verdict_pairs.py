@@ -12,6 +12,7 @@ from sqlalchemy import ColumnElement, Select, Subquery, and_, func, or_, select
 from sqlalchemy.orm import Session, aliased
 
 from app.db.models import Dataset, Decision, Image, SecondDecision, SecondReview, Segment
+from app.services.successors import last_of_each
 
 JUDGED = ("keep", "reject", "ambiguous")
 """Verdicts that can agree; who left a candidate undecided said nothing."""
@@ -42,7 +43,10 @@ class VerdictPair:
 
 
 def select_pairs(dataset: Dataset) -> Select[int, int, str, int, float, str, str | None, str, str | None]:
-    """Select the columns of ``VerdictPair`` for all candidates that both judged in second reviews that are done."""
+    """Select the columns of ``VerdictPair`` for all candidates that both judged in second reviews that are done.
+
+    What a hand drew is no candidate: whoever drew it kept it.
+    """
     of_dataset = (Image.dataset_id == dataset.id) & Image.deleted_at.is_(None) & (SecondReview.status == "done")
     first, second = _latest_first(of_dataset), _latest_second(of_dataset)
     return (
@@ -64,7 +68,7 @@ def select_pairs(dataset: Dataset) -> Select[int, int, str, int, float, str, str
         .join(Image, Image.id == SecondReview.image_id)
         .join(first, first.c.segment_id == Segment.id)
         .join(First, First.id == first.c.id)
-        .where(First.verdict.in_(JUDGED), Second.verdict.in_(JUDGED))
+        .where(First.verdict.in_(JUDGED), Second.verdict.in_(JUDGED), Segment.origin != "manual")
     )
 
 
@@ -88,11 +92,20 @@ def _latest_first(of_dataset: ColumnElement[bool]) -> Subquery:
 
 
 def _latest_second(of_dataset: ColumnElement[bool]) -> Subquery:
+    # one of each candidate, though runs replaced its segment while it was being judged
+    judged = (
+        select(SecondDecision.segment_id)
+        .join(SecondReview, SecondReview.id == SecondDecision.second_review_id)
+        .join(Image, Image.id == SecondReview.image_id)
+        .where(of_dataset)
+    )
+    last = last_of_each(judged, "succession")
     return (
         select(func.max(SecondDecision.id).label("id"))
         .join(SecondReview, SecondReview.id == SecondDecision.second_review_id)
         .join(Image, Image.id == SecondReview.image_id)
+        .join(last, last.c.segment_id == SecondDecision.segment_id)
         .where(of_dataset, SecondDecision.created_at <= SecondReview.done_at)
-        .group_by(SecondDecision.second_review_id, SecondDecision.segment_id)
+        .group_by(SecondDecision.second_review_id, last.c.last_id)
         .subquery("latest_second")
     )

@@ -125,3 +125,14 @@ def test_an_edit_of_what_was_edited_meanwhile_is_a_conflict_with_what_is_there(c
     assert (late.status_code, late.json()["code"]) == (409, "stale-edit")
     assert late.json()["details"]["current"][0]["replaced_by"] == cut["added"]
     assert len(segments(client, image)) == 2
+
+
+def test_an_edit_sent_again_is_answered_without_being_made_again(
+    client: TestClient, image: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = post_edit(client, image, "trace", [], adds=[[[x, 59.5] for x in range(80, 221)]]).json()
+    body = {"client_id": str(uuid4()), "kind": "extend", "replaces": drawn["added"]}
+    first = client.post(f"{image}/edits", json=body).json()
+    monkeypatch.setattr(client.app.state.server.tracer, "trace", None)  # type: ignore[attr-defined]
+    assert client.post(f"{image}/edits", json=body).json() == first
+    assert client.post(f"{image}/edits", json={**body, "kind": "trim", "at": [150, 60]}).status_code == 409

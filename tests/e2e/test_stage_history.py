@@ -69,6 +69,8 @@ def test_by_keys_alone_a_candidate_tells_its_pieces(page: Page, label_server: An
     open_candidate(page, label_server, found["image_id"], found["segment_id"])
     toggle = page.get_by_role("button", name="How it was found")
     expect(toggle).to_have_attribute("aria-expanded", "false")
+    # what is suggested colours the selected line
+    expect(page.get_by_text("By the general model")).to_be_visible(timeout=30_000)
     before = drawn(page)
 
     page.keyboard.press("i")

@@ -84,7 +84,7 @@ def test_from_guidelines_to_a_decision_between_two(page: Page, label_server: Any
     open_tab(page, label_server, "team")
     guidelines = page.get_by_role("region", name="Guidelines and rules")
     guidelines.get_by_role("button", name="Edit").click()
-    guidelines.get_by_label("Guidelines, Markdown").fill("Kerbs count.\nTrees don't.")
+    guidelines.get_by_role("textbox", name="Guidelines").fill("Kerbs count.\nTrees don't.")
     guidelines.get_by_label("Share reviewed a second time, %").fill("100")
     guidelines.get_by_role("button", name="Save").click()
     expect(guidelines.get_by_text("100 % of the images are reviewed a second time")).to_be_visible()

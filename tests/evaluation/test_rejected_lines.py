@@ -13,7 +13,6 @@ from app.evaluation.ground_truth import ground_truth
 from app.evaluation.image_record import ImageRecord
 from app.evaluation.rejected_lines import (
     NO_REASON,
-    REASONS,
     RejectedLines,
     reason_name,
     reason_strata,
@@ -22,6 +21,7 @@ from app.evaluation.rejected_lines import (
 )
 from app.evaluation.split_image import ScoredImage, SplitImageInfo
 from app.evaluation.submission_scoring import score_image, score_totals
+from app.verdicts import REASONS
 from app.vision.segments import Segments
 
 

@@ -20,10 +20,11 @@ from app.formats.inert_npy import read_label_npy
 from app.formats.json_segments import read_json, read_json_set
 from app.formats.json_writer import write_json, write_json_set
 from app.formats.label_npy import write_label_npy
-from app.formats.labelled import ORIGINS, REASONS, VERDICTS, LabelledSegments
+from app.formats.labelled import ORIGINS, LabelledSegments
 from app.formats.labelled_image import LabelledImage
 from app.formats.members import stream_zip
 from app.formats.npz import is_npz_set, read_npz, read_npz_set, write_npz, write_npz_set
+from app.verdicts import REASONS, VERDICTS
 from app.vision.segments import Segments
 
 few = settings(max_examples=12, deadline=None)

@@ -8,8 +8,8 @@ from fastapi import APIRouter, Query
 
 from app.api.deps import Cursor, Limit, Now, Reader, ServerDep, ViewerDep
 from app.api.problems import answers
+from app.api.schemas.agreement import AdjudicationGiven, AgreementAnswer, Difference, DifferencePage
 from app.api.schemas.base import RowId
-from app.api.schemas.second_reviews import AdjudicationGiven, AgreementAnswer, Difference, DifferencePage
 from app.api.schemas.statistics import StatisticsAnswer
 from app.services.adjudicating import adjudicate, take_back
 from app.services.agreements import agreement_of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from app.api.problems import answers
 from app.api.schemas.base import RowId
 from app.api.schemas.edits import EditGiven, EditsAnswer, EditStored, TraceAnswer, TraceGiven
 from app.jobs.tracing import Wanted
-from app.services import edits
+from app.services import edits, stored_edits
 from app.services.edited_points import EditedImage, Points, edited_image, made_polylines, require_inside
 
 router = APIRouter(prefix="/images/{image_id}", tags=["labelling"], responses=answers(404))
@@ -40,7 +41,7 @@ def trace(server: ServerDep, image_id: RowId, given: TraceGiven) -> TraceAnswer:
 @router.get("/edits")
 def read_edits(session: Reader, image_id: RowId) -> EditsAnswer:
     """Return all edits of an image, oldest first."""
-    return EditsAnswer.model_validate({"edits": edits.edits_of_image(session, image_id)})
+    return EditsAnswer.model_validate({"edits": stored_edits.edits_of_image(session, image_id)})
 
 
 @router.post("/edits", responses=answers(409, 413, 503))
@@ -49,13 +50,17 @@ def edit(server: ServerDep, viewer: ViewerDep, now: Now, image_id: RowId, given:
 
     What comes is of origin ``manual`` and kept; the parts of a cut have the verdict of what was cut. Decisions of kind
     ``undo`` and ``redo`` whose ``target_group_id`` is the ``client_id`` take it back and do it again. 409 with the code
-    ``stale-edit`` when a segment was changed meanwhile, and in `details.current` what took its place.
+    ``stale-edit`` when a segment was changed meanwhile, and in `details.current` what took its place. With ``seen``,
+    409 with the code ``stale-verdict`` when someone else decided on a segment after it and the edit would overrule it.
     """
-    if given.adds is not None or given.kind == "trace":
-        adds = [np.array(points, np.float64) for points in given.adds or []]
-    else:
-        adds = _made(server, image_id, given)
-    wanted = edits.EditGiven(given.client_id, given.kind, tuple(given.replaces), tuple(adds))
+    adds = None if given.adds is None else tuple(np.array(points, np.float64) for points in given.adds)
+    wanted = stored_edits.EditGiven(given.client_id, given.kind, tuple(given.replaces), adds, given.seen)
+    if adds is None and given.kind != "trace":
+        with server.database.read() as session:
+            known = stored_edits.stored_edit(session, image_id, wanted)
+        if known is not None:  # sent again: the edge isn't traced again
+            return EditStored.model_validate(known)
+        wanted = replace(wanted, adds=tuple(_made(server, image_id, given)))
     with server.database.write() as session:
         return EditStored.model_validate(edits.store_edit(session, image_id, wanted, viewer.name, now))
 

@@ -62,12 +62,14 @@ def read_decisions(session: Reader, image_id: RowId) -> History:
     return History.model_validate({"decisions": labelling.history(session, image_id)})
 
 
-@router.get("/neighbour_verdicts")
+@router.get("/neighbour_verdicts", responses=answers(503))
 def read_neighbour_verdicts(server: ServerDep, image_id: RowId) -> list[NeighbourVerdict]:
     """Return verdicts of the same edges in the frames before and after, for candidates that are undecided here."""
     with server.database.read() as session:  # given back before the frames are matched
         frames = frames_to_match(session, image_id)
-    return [NeighbourVerdict.model_validate(found) for found in neighbour_verdicts(frames)]
+    with server.decoding.place():  # as long as decoding, and as large
+        verdicts = neighbour_verdicts(frames)
+    return [NeighbourVerdict.model_validate(found) for found in verdicts]
 
 
 @router.post("/decisions", responses=answers(409))

@@ -64,6 +64,9 @@ class EditGiven(Given):
         None, description="The segments that come, px. A trace needs them; every other kind can do without."
     )
     at: Place | None = Field(None, description="Where to cut, or up to where to trim the nearer end, px.")
+    seen: int | None = Field(
+        None, ge=0, description="Id of the image's last decision that is known: later ones of others aren't overruled."
+    )
 
 
 class EditAnswer(Answer):

@@ -6,8 +6,8 @@ from datetime import date, datetime
 
 from pydantic import Field
 
+from app.api.schemas.agreement import KappaAnswer
 from app.api.schemas.base import Answer, RejectReason, ReviewCounts, Verdict
-from app.api.schemas.second_reviews import KappaAnswer
 
 
 class DayProgress(Answer):

@@ -9,15 +9,14 @@ from sqlalchemy import Float, ForeignKey, Index, Integer, LargeBinary, String, T
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db.models.base import NEVER_REUSED, Base, one_of
+from app.verdicts import VERDICTS
 
 if TYPE_CHECKING:
     from app.db.models.datasets import Image
 
-VERDICTS = ("keep", "reject", "ambiguous", "undecided")
 REVIEW_STATES = ("open", "done", "discarded")
 ORIGINS = ("pipeline", "manual", "import")
 DECISION_KINDS = ("judge", "undo", "redo", "carry", "import", "accept", "take_over")
-REASONS = ("car", "lane_marking", "curved", "shadow", "other")
 RECALLS = ("complete", "nearly", "incomplete")
 
 

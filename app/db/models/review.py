@@ -9,7 +9,7 @@ from sqlalchemy import ForeignKey, Index, Integer, LargeBinary, String
 from sqlalchemy.orm import Mapped, mapped_column
 
 from app.db.models.base import NEVER_REUSED, Base, one_of
-from app.db.models.labelling import VERDICTS
+from app.verdicts import VERDICTS
 
 EDIT_KINDS = ("trace", "cut", "join", "extend", "trim")
 SECOND_REVIEW_STATES = ("open", "done")

@@ -12,8 +12,9 @@ from typing import Any
 from xml.etree import ElementTree
 
 from app.formats.exports.polyline import CORNER, LABEL, attributes, polylines
-from app.formats.labelled import ORIGINS, VERDICTS
+from app.formats.labelled import ORIGINS
 from app.formats.labelled_image import LabelledImage
+from app.verdicts import VERDICTS
 
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML 1.0 can't hold, section 2.2."""

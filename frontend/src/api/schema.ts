@@ -661,7 +661,8 @@ export interface paths {
          *
          *     What comes is of origin ``manual`` and kept; the parts of a cut have the verdict of what was cut. Decisions of kind
          *     ``undo`` and ``redo`` whose ``target_group_id`` is the ``client_id`` take it back and do it again. 409 with the code
-         *     ``stale-edit`` when a segment was changed meanwhile, and in `details.current` what took its place.
+         *     ``stale-edit`` when a segment was changed meanwhile, and in `details.current` what took its place. With ``seen``,
+         *     409 with the code ``stale-verdict`` when someone else decided on a segment after it and the edit would overrule it.
          */
         post: operations["edit_api_images__image_id__edits_post"];
         delete?: never;
@@ -2907,6 +2908,11 @@ export interface components {
              * @description Ids of current segments that go.
              */
             replaces?: number[];
+            /**
+             * Seen
+             * @description Id of the image's last decision that is known: later ones of others aren't overruled.
+             */
+            seen?: number | null;
         };
         /**
          * EditStored
@@ -4738,7 +4744,7 @@ export interface components {
         };
         /**
          * SecondSegmentsAnswer
-         * @description An image's current candidates in the order of ``/images/{image_id}/points``.
+         * @description An image's candidates in the order of ``/images/{image_id}/points``, without what a hand drew.
          */
         SecondSegmentsAnswer: {
             /** Height */
@@ -8587,6 +8593,16 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,30 +1,19 @@
 /** One image on the screen: navigation, gestures and drawing together, without any framework. */
 
 import type { Point } from "./geometry";
-import { type ClickManner, listenToGestures } from "./gestures";
+import { listenToGestures } from "./gestures";
 import type { LineLook } from "./layers/line_layer";
 import { Navigation } from "./navigation";
 import type { PointerTool } from "./pointer_tool";
+import { Pointing, type PointingListener } from "./pointing";
 import { Renderer } from "./renderer";
 import { EMPTY_SCENE, type Hit, type Scene } from "./scene";
 import type { StageTrace } from "./stage_trace";
 import { ToolHand } from "./tool_hand";
 import { type Size, toImage, type Viewport } from "./viewport";
+import { watchSize } from "./watch_size";
 
-/** How far from a line a pointer still means it (screen px). */
-const MOUSE_REACH = 7;
-const TOUCH_REACH = 18;
-/** Two clicks this close to each other are at one place (screen px). */
-const SAME_PLACE = 3;
-
-export interface ViewListener {
-  /** The line under the pointer, and where on the screen the pointer is. */
-  hover(index: number | null, screen: Point | null): void;
-  /**
-   * Lines at the clicked place, nearest first; `again` where the click before was there too, `shift` where the key
-   * was held.
-   */
-  click(hits: readonly Hit[], again: boolean, shift: boolean): void;
+export interface ViewListener extends PointingListener {
   /** The view moved, by hand or by itself, but not along with another one. */
   viewChanged(viewport: Viewport): void;
   /** Image and lines are on the screen, or aren't any more because others were opened. */
@@ -38,29 +27,23 @@ export interface ViewCanvases {
 }
 
 export class CanvasView {
-  private readonly host: HTMLElement;
   private readonly listener: ViewListener;
   private readonly renderer: Renderer;
   private readonly stopGestures: () => void;
-  private readonly resizes: ResizeObserver;
-  private readonly controller = new AbortController();
+  private readonly stopWatching: () => void;
   private readonly navigation: Navigation;
   private scene: Scene = EMPTY_SCENE;
   private visible: (index: number) => boolean = () => true;
-  private hovered: number | null = null;
   private selected: number | null = null;
-  private lastClick: Point | null = null;
   private readonly watchers = new Set<() => void>();
   private readonly hand: ToolHand;
+  private readonly pointing: Pointing;
 
   constructor(host: HTMLElement, canvases: ViewCanvases, listener: ViewListener) {
-    this.host = host;
     this.listener = listener;
     this.renderer = new Renderer(canvases.image, canvases.lines, canvases.highlights, listener.painted);
     this.navigation = new Navigation({
-      departed: () => {
-        this.lastClick = null;
-      },
+      departed: () => this.pointing.departed(),
       moved: (viewport, mirrored) => this.moved(viewport, mirrored),
     });
     this.hand = new ToolHand({
@@ -70,6 +53,11 @@ export class CanvasView {
         this.renderer.update({ tool }, "highlights");
       },
     });
+    this.pointing = new Pointing({
+      listener,
+      hits: (screen, radius) => this.linesNear(this.imagePoint(screen), radius),
+      highlight: (hovered) => this.renderer.update({ hovered }, "highlights"),
+    });
     this.stopGestures = listenToGestures(host, {
       zoom: (position, factor) => {
         this.navigation.zoom(position, factor);
@@ -77,19 +65,18 @@ export class CanvasView {
       },
       pan: (dx, dy) => this.navigation.pan(dx, dy),
       hover: (position) => this.hover(position),
-      click: (position, how) => this.click(position, how),
+      click: (position, how) => this.pointing.click(position, how),
       beginDrag: () => this.hand.begin(),
     });
-    this.resizes = new ResizeObserver(() => this.resize());
-    this.resizes.observe(host);
-    this.resize();
-    this.watchRatio();
+    this.stopWatching = watchSize(host, (screen, ratio) => {
+      this.renderer.resize(screen, ratio);
+      this.navigation.resize(screen);
+    });
   }
 
   dispose(): void {
     this.stopGestures();
-    this.resizes.disconnect();
-    this.controller.abort();
+    this.stopWatching();
     this.navigation.dispose();
     this.renderer.stop();
   }
@@ -98,9 +85,8 @@ export class CanvasView {
   open(imageSize: Size): void {
     this.cancelDrag();
     this.scene = EMPTY_SCENE;
-    this.hovered = null;
     this.selected = null;
-    this.lastClick = null;
+    this.pointing.reset();
     this.renderer.update(
       {
         image: null,
@@ -125,7 +111,7 @@ export class CanvasView {
     this.scene = scene;
     this.renderer.update({ scene }, "scene");
     // What was under the pointer belonged to another scene.
-    if (this.hovered !== null) this.hover(null);
+    this.pointing.moved();
   }
 
   /** @param changed The lines that look different now; absent where any may. */
@@ -148,7 +134,7 @@ export class CanvasView {
 
   /** What drags do from now on; null: they move the view. A drag under way ends with the tool it began with. */
   setTool(tool: PointerTool | null): void {
-    if (this.hand.take(tool) && tool !== null) this.hoverLine(null, null);
+    if (this.hand.take(tool) && tool !== null) this.pointing.letGo();
   }
 
   /** Ends a tool's drag as if it had never begun; false where there is none. */
@@ -223,8 +209,7 @@ export class CanvasView {
   }
 
   private moved(viewport: Viewport, mirrored: boolean): void {
-    // Another line may be under the resting pointer now; it counts again once it moves.
-    if (this.hovered !== null) this.hover(null);
+    this.pointing.moved();
     this.renderer.update({ viewport }, "view");
     if (!mirrored) this.listener.viewChanged(viewport);
     for (const watcher of this.watchers) watcher();
@@ -235,45 +220,6 @@ export class CanvasView {
   }
 
   private hover(position: Point | null): void {
-    if (this.hand.hover(position)) return;
-    this.hoverLine(position === null ? null : (this.hits(position, MOUSE_REACH)[0]?.index ?? null), position);
-  }
-
-  private hoverLine(index: number | null, position: Point | null): void {
-    if (index !== this.hovered) {
-      this.hovered = index;
-      this.renderer.update({ hovered: index }, "highlights");
-    }
-    this.listener.hover(index, position);
-  }
-
-  private click(position: Point, { touch, shift }: ClickManner): void {
-    const last = this.lastClick;
-    const again = last !== null && Math.hypot(position.x - last.x, position.y - last.y) <= SAME_PLACE;
-    this.lastClick = position;
-    this.listener.click(this.hits(position, touch ? TOUCH_REACH : MOUSE_REACH), again, shift);
-  }
-
-  private hits(position: Point, reach: number): Hit[] {
-    return this.linesNear(this.imagePoint(position), reach);
-  }
-
-  /** A window on another screen has other pixels in the same size. */
-  private watchRatio(): void {
-    const { signal } = this.controller;
-    const again = () => {
-      this.resize();
-      this.watchRatio();
-    };
-    window
-      .matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`)
-      .addEventListener("change", again, { once: true, signal });
-  }
-
-  private resize(): void {
-    const box = this.host.getBoundingClientRect();
-    const screen: Size = { width: Math.max(1, box.width), height: Math.max(1, box.height) };
-    this.renderer.resize(screen, window.devicePixelRatio || 1);
-    this.navigation.resize(screen);
+    if (!this.hand.hover(position)) this.pointing.hover(position);
   }
 }

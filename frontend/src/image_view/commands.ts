@@ -54,6 +54,14 @@ export const VIEW_COMMANDS: readonly Command<ViewActions>[] = [
   ),
 ];
 
+export const TOGGLE_KEY_LIST: Command<Pick<ImagePageActions, "toggleKeyList">> = {
+  id: "key-list",
+  keys: ["?"],
+  label: "Show or hide this list",
+  group: "Image",
+  run: (a) => a.toggleKeyList(),
+};
+
 export const IMAGE_PAGE_COMMANDS: readonly Command<ImagePageActions>[] = [
   { id: "next-image", keys: ["N", "]"], label: "Next image", group: "Image", run: (a) => a.goToImage(1) },
   {
@@ -63,14 +71,16 @@ export const IMAGE_PAGE_COMMANDS: readonly Command<ImagePageActions>[] = [
     group: "Image",
     run: (a) => a.goToImage(-1),
   },
-  {
-    id: "key-list",
-    keys: ["?"],
-    label: "Show or hide this list",
-    group: "Image",
-    run: (a) => a.toggleKeyList(),
-  },
+  TOGGLE_KEY_LIST,
 ];
+
+/** The same keys on a page where they are called otherwise; by the commands' ids. */
+export function reworded<Actions>(
+  commands: readonly Command<Actions>[],
+  words: Readonly<Record<string, string>>,
+): Command<Actions>[] {
+  return commands.map((command) => ({ ...command, label: words[command.id] ?? command.label }));
+}
 
 const KEY_CAPS: Readonly<Record<string, string>> = {
   Escape: "Esc",

@@ -13,7 +13,7 @@ interface KeyListProps<Actions> {
 /** All keys, beside the image: it isn't a dialog, so one can try them while reading. */
 export function KeyList<Actions>({ commands, groups, onClose }: KeyListProps<Actions>) {
   return (
-    <section className="key-list" aria-label="Keys">
+    <section className="image-box key-list" aria-label="Keys">
       <header>
         <h2>Keys</h2>
         <IconButton small icon="cross" label="Close" keys={["?"]} side="end" onClick={onClose} />

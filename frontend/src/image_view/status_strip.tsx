@@ -11,7 +11,7 @@ interface StatusStripProps {
   /** Comes before the keys. */
   tip?: ReactNode;
   scale: number;
-  actions: ViewActions & ImagePageActions;
+  actions: ViewActions & Pick<ImagePageActions, "toggleKeyList">;
 }
 
 /** The keys one needs most, and the zoom, below the image. */

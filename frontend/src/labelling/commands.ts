@@ -1,6 +1,5 @@
 /** Everything the keyboard does on the label page. */
 
-import type { Verdict } from "../api/types";
 import {
   type Command,
   IMAGE_PAGE_COMMANDS,
@@ -10,6 +9,16 @@ import {
 } from "../image_view/commands";
 import { keymapOf } from "../image_view/keymap";
 import { PAGES_COMMANDS, type PagesActions } from "./commands_pages";
+import {
+  FINISH,
+  HIDE_REJECTED,
+  MOVE_COMMANDS,
+  REDO,
+  REJECT_UNDECIDED,
+  type ReviewActions,
+  UNDO,
+  VERDICT_COMMANDS,
+} from "./commands_review";
 import { TOOL_COMMANDS, type ToolActions } from "./commands_tools";
 import { DRAWING_COMMANDS, type DrawingActions } from "./drawing/commands_drawing";
 import { SUGGESTION_COMMANDS, type SuggestionActions } from "./suggestions/commands_suggestions";
@@ -19,20 +28,13 @@ import { VIEWS_COMMANDS, type ViewsActions } from "./views/commands_views";
 export interface LabelActions
   extends ViewActions,
     ImagePageActions,
+    ReviewActions,
     ViewsActions,
     ToolActions,
     DrawingActions,
     SuggestionActions,
     PagesActions {
-  step(direction: 1 | -1): void;
-  judge(verdict: Verdict): void;
-  undo(): void;
-  redo(): void;
-  rejectUndecided(): void;
-  toggleRejected(): void;
-  finish(): void;
   discard(): void;
-  leaveSelection(): void;
   toggleStages(): void;
   stepJoin(direction: 1 | -1): void;
 }
@@ -40,59 +42,13 @@ export interface LabelActions
 export const COMMAND_GROUPS = ["Judge", "Many", "Reject because", "Draw", "Move", "View", "Image"] as const;
 
 export const COMMANDS: readonly Command<LabelActions>[] = [
-  { id: "keep", keys: ["K"], label: "Keep", group: "Judge", run: (a) => a.judge("keep") },
-  { id: "reject", keys: ["X"], label: "Reject", group: "Judge", run: (a) => a.judge("reject") },
-  { id: "ambiguous", keys: ["A"], label: "Ambiguous", group: "Judge", run: (a) => a.judge("ambiguous") },
-  {
-    id: "undecided",
-    keys: ["U"],
-    label: "Back to undecided",
-    group: "Judge",
-    run: (a) => a.judge("undecided"),
-  },
-  {
-    id: "reject-undecided",
-    keys: ["R"],
-    label: "Reject all undecided",
-    group: "Judge",
-    run: (a) => a.rejectUndecided(),
-  },
+  ...VERDICT_COMMANDS,
+  REJECT_UNDECIDED,
   ...SUGGESTION_COMMANDS,
-  { id: "undo", keys: ["Z", "Ctrl+Z"], label: "Undo", group: "Judge", repeats: true, run: (a) => a.undo() },
-  {
-    id: "redo",
-    keys: ["Shift+Z", "Ctrl+Shift+Z", "Ctrl+Y"],
-    label: "Redo",
-    group: "Judge",
-    repeats: true,
-    run: (a) => a.redo(),
-  },
-  {
-    id: "next",
-    keys: ["Tab"],
-    label: "Next candidate",
-    group: "Move",
-    onImageOnly: true,
-    repeats: true,
-    run: (a) => a.step(1),
-  },
-  {
-    id: "previous",
-    keys: ["Shift+Tab"],
-    label: "Previous candidate",
-    group: "Move",
-    onImageOnly: true,
-    repeats: true,
-    run: (a) => a.step(-1),
-  },
-  {
-    id: "leave",
-    keys: ["Escape"],
-    label: "Close; deselect; leave the image",
-    group: "Move",
-    run: (a) => a.leaveSelection(),
-  },
-  { id: "hide-rejected", keys: ["H"], label: "Hide rejected", group: "View", run: (a) => a.toggleRejected() },
+  UNDO,
+  REDO,
+  ...MOVE_COMMANDS,
+  HIDE_REJECTED,
   { id: "stages", keys: ["I"], label: "How it was found", group: "View", run: (a) => a.toggleStages() },
   {
     id: "next-join",
@@ -114,14 +70,7 @@ export const COMMANDS: readonly Command<LabelActions>[] = [
   ...VIEWS_COMMANDS,
   ...TOOL_COMMANDS,
   ...DRAWING_COMMANDS,
-  {
-    id: "finish",
-    keys: ["Enter"],
-    label: "Image done, on to the next",
-    group: "Image",
-    onImageOnly: true,
-    run: (a) => a.finish(),
-  },
+  FINISH,
   {
     id: "discard",
     keys: ["D"],

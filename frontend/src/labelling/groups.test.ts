@@ -2,12 +2,11 @@ import { beforeEach, describe, expect, it } from "vitest";
 import type { NewDecision } from "../api/types";
 import { candidateLook, changedLooks } from "./candidate_look";
 import { familyOfSelection } from "./families";
-import { NO_HISTORY } from "./history";
 import { describeSelection, reasonAt, SHOW_ALL } from "./label_state";
-import { LabelStore } from "./label_store";
-import { Stopwatch } from "./stopwatch";
+import type { LabelStore } from "./label_store";
 import type { Suggesting, Suggestion } from "./suggestions/suggestions";
 import { candidate } from "./test_candidates";
+import { undecidedStore } from "./test_store";
 import { NOTHING_TOUCHED } from "./tools/preview";
 
 let recorded: NewDecision[];
@@ -15,19 +14,8 @@ let store: LabelStore;
 
 beforeEach(() => {
   recorded = [];
-  let id = 0;
   const candidates = [1, 2, 3, 4, 5].map((number) => candidate(number));
-  store = new LabelStore({
-    candidates,
-    verdicts: candidates.map(() => "undecided"),
-    reasons: candidates.map(() => null),
-    history: NO_HISTORY,
-    imageHeight: 100,
-    order: "position",
-    stopwatch: new Stopwatch(() => 0),
-    newId: () => `id-${++id}`,
-    record: (decisions) => recorded.push(...decisions),
-  });
+  store = undecidedStore(candidates, recorded);
 });
 
 const verdicts = () => store.getState().verdicts.join(" ");

@@ -3,6 +3,7 @@
 import type { NewDecision, RejectReason, Verdict } from "../api/types";
 import type { VerdictChange } from "./history";
 import { type LabelState, reasonAt, verdictAt } from "./label_state";
+import { suggestionAt } from "./suggestions/suggestions";
 import { countVerdicts } from "./verdicts";
 
 /** A judgement of one candidate, by index. */
@@ -30,7 +31,7 @@ export interface Act {
   readonly suggestions?: ReadonlyMap<number, number | null>;
 }
 
-export function changeOf(state: LabelState, { index, verdict, reason }: Given): VerdictChange {
+function changeOf(state: LabelState, { index, verdict, reason }: Given): VerdictChange {
   const candidate = state.candidates[index];
   if (candidate === undefined) throw new RangeError(`There is no candidate ${index}.`);
   const before = reasonAt(state, index);
@@ -44,12 +45,36 @@ export function changeOf(state: LabelState, { index, verdict, reason }: Given): 
 }
 
 /** Whether anything is another one after it. */
-export function isChange({ from, to, reasons }: VerdictChange): boolean {
+function isChange({ from, to, reasons }: VerdictChange): boolean {
   return from !== to || reasons.from !== reasons.to;
 }
 
 export function reversed({ segmentId, from, to, reasons }: VerdictChange): VerdictChange {
   return { segmentId, from: to, to: from, reasons: { from: reasons.to, to: reasons.from } };
+}
+
+/** What some judgements change. */
+export interface Judged {
+  readonly changes: readonly VerdictChange[];
+  /** The probabilities that were shown, by segment id. */
+  readonly suggestions: ReadonlyMap<number, number | null>;
+}
+
+/** Judgements that leave things as they are change nothing. */
+export function judgedBy(state: LabelState, given: readonly Given[]): Judged {
+  const changes: VerdictChange[] = [];
+  const suggestions = new Map<number, number | null>();
+  for (const wish of given) {
+    const change = changeOf(state, wish);
+    if (!isChange(change)) continue;
+    changes.push(change);
+    suggestions.set(change.segmentId, probabilityShown(state, wish));
+  }
+  return { changes, suggestions };
+}
+
+function probabilityShown({ suggesting }: LabelState, { index, suggestion }: Given): number | null {
+  return suggestion ?? suggestionAt(suggesting, index)?.probability ?? null;
 }
 
 /** The verdicts and reasons after some changes. */

@@ -1,10 +1,9 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import type { NewDecision } from "../api/types";
-import { NO_HISTORY } from "./history";
 import { describeSelection, SHOW_ALL, verdictAt } from "./label_state";
-import { LabelStore } from "./label_store";
-import { Stopwatch } from "./stopwatch";
+import type { LabelStore } from "./label_store";
 import { candidate } from "./test_candidates";
+import { undecidedStore } from "./test_store";
 
 let recorded: NewDecision[];
 let time: number;
@@ -13,19 +12,8 @@ let store: LabelStore;
 beforeEach(() => {
   recorded = [];
   time = 0;
-  let id = 0;
   const candidates = [candidate(1), candidate(2, { straight: false }), candidate(3), candidate(4)];
-  store = new LabelStore({
-    candidates,
-    verdicts: candidates.map(() => "undecided"),
-    reasons: candidates.map(() => null),
-    history: NO_HISTORY,
-    imageHeight: 100,
-    order: "position",
-    stopwatch: new Stopwatch(() => time),
-    newId: () => `id-${++id}`,
-    record: (decisions) => recorded.push(...decisions),
-  });
+  store = undecidedStore(candidates, recorded, () => time);
 });
 
 const verdicts = () => store.getState().verdicts.join(" ");

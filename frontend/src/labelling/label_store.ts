@@ -3,20 +3,23 @@
 import type { NewDecision, RejectReason, SegmentFacts, StoredDecision, Verdict } from "../api/types";
 import { type CaughtUp, caughtUp } from "./catch_up";
 import { type ChangeGroup, type History, pushed, redone, undone, type VerdictChange } from "./history";
+import { type Act, changed, decisionsOf, type Given, type JudgeOptions, judgedBy, reversed } from "./judging";
+import { isShown, type LabelState, SHOW_ALL, type Shown } from "./label_state";
+import { type ReviewOrder, reviewSequence } from "./order";
 import {
-  type Act,
-  changed,
-  changeOf,
-  decisionsOf,
-  type Given,
-  isChange,
-  type JudgeOptions,
-  reversed,
-} from "./judging";
-import { isShown, type LabelState, SHOW_ALL, type Shown, verdictAt } from "./label_state";
-import { nextInSequence, type ReviewOrder, reviewSequence } from "./order";
+  firstUndecided,
+  isUndecided,
+  NOTHING_SELECTED,
+  nextShown,
+  nextToJudge,
+  type Selection,
+  selectionOf,
+  selectionOfOne,
+  toggledSelection,
+} from "./selection";
 import type { Stopwatch } from "./stopwatch";
-import { NOT_SUGGESTING, type Suggesting, suggestedAt, suggestionAt } from "./suggestions/suggestions";
+import { suggestedVerdicts } from "./suggestions/accepting";
+import { NOT_SUGGESTING, type Suggesting } from "./suggestions/suggestions";
 import { countVerdicts } from "./verdicts";
 
 interface StoreParts {
@@ -51,8 +54,7 @@ export class LabelStore {
       counts: countVerdicts(parts.verdicts),
       sequence: reviewSequence(parts.candidates, parts.order, parts.imageHeight),
       order: parts.order,
-      selected: null,
-      selection: [],
+      ...NOTHING_SELECTED,
       shown: parts.shown ?? SHOW_ALL,
       suggesting: NOT_SUGGESTING,
       history: parts.history,
@@ -71,47 +73,29 @@ export class LabelStore {
     return this.indexOf.get(segmentId) ?? null;
   }
 
+  /** @param follow Whether the view goes to it. */
   select(index: number | null, { follow = false } = {}): void {
-    if (index !== this.state.selected) this.parts.stopwatch.restart();
-    if (index !== null) this.place = index;
-    const { followRequest } = this.state;
-    this.set({
-      selected: index,
-      selection: index === null ? [] : [index],
-      followRequest: follow ? followRequest + 1 : followRequest,
-    });
+    this.choose(index === null ? NOTHING_SELECTED : selectionOfOne(index), follow);
   }
 
   /** Selects exactly these; the panel shows the first of them in the order of review. */
   selectAll(indices: Iterable<number>): void {
-    const wanted = new Set(indices);
-    const selection = this.state.sequence.filter((index) => wanted.has(index));
-    const selected = selection[0] ?? null;
-    this.select(selected);
-    if (selection.length > 1) this.set({ selection });
+    this.choose(selectionOf(this.state, indices));
   }
 
   /** Adds a candidate to the selection, or takes it out of it. */
   toggleSelected(index: number): void {
-    const { selection } = this.state;
-    const left = selection.filter((other) => other !== index);
-    const next = left.length < selection.length ? left : [...selection, index];
-    this.select(next.at(-1) ?? null);
-    if (next.length > 1) this.set({ selection: next });
+    this.choose(toggledSelection(this.state, index));
   }
 
   /** Selects the next (or previous) candidate that is shown. */
   step(direction: 1 | -1): void {
-    const { sequence, selected } = this.state;
-    const next = nextInSequence(sequence, selected ?? this.place, direction, this.shownAt);
-    if (next !== null) this.select(next, { follow: true });
+    this.goTo(nextShown(this.state, this.state.selected ?? this.place, direction));
   }
 
   /** Selects the first undecided candidate in the order of review; false where none is left. */
   selectFirstUndecided(): boolean {
-    const first = nextInSequence(this.state.sequence, null, 1, this.undecidedAt);
-    if (first !== null) this.select(first, { follow: true });
-    return first !== null;
+    return this.goTo(firstUndecided(this.state));
   }
 
   /** Gives all that is selected a verdict, as one group, and goes to the next undecided candidate. */
@@ -119,13 +103,13 @@ export class LabelStore {
     const { selected, selection } = this.state;
     if (selected === null) return false;
     const judged = this.judge(selection, verdict, given);
-    if (verdict !== "undecided") this.advance(selected);
+    if (verdict !== "undecided") this.goTo(nextToJudge(this.state, selected));
     return judged;
   }
 
   /** Rejects all that is undecided, shown or not; gives their number. */
   rejectUndecided(): number {
-    const undecided = this.state.sequence.filter(this.undecidedAt);
+    const undecided = this.state.sequence.filter((index) => isUndecided(this.state, index));
     this.judge(undecided, "reject");
     return undecided.length;
   }
@@ -140,13 +124,9 @@ export class LabelStore {
 
   /** Several judgements that are undone by one undo; false where nothing changes. */
   decide(given: readonly Given[], kind: JudgeOptions["kind"] = "judge"): boolean {
-    const changing = given
-      .map((wish) => ({ change: changeOf(this.state, wish), suggestion: this.probabilityShown(wish) }))
-      .filter(({ change }) => isChange(change));
-    if (changing.length === 0) return false;
-    const changes = changing.map(({ change }) => change);
+    const { changes, suggestions } = judgedBy(this.state, given);
+    if (changes.length === 0) return false;
     const group: ChangeGroup = { id: this.parts.newId(), changes };
-    const suggestions = new Map(changing.map(({ change, suggestion }) => [change.segmentId, suggestion]));
     this.apply(changes, { kind, groupId: group.id, suggestions });
     this.set({ history: pushed(this.state.history, group) });
     return true;
@@ -186,7 +166,7 @@ export class LabelStore {
   setShown(shown: Shown): void {
     this.set({ shown });
     const { selection } = this.state;
-    const left = selection.filter(this.shownAt);
+    const left = selection.filter((index) => isShown(this.state, index));
     if (left.length < selection.length) this.selectAll(left);
   }
 
@@ -202,31 +182,31 @@ export class LabelStore {
 
   /** Decides the undecided among some candidates as suggested, as one group; gives how many are kept and rejected. */
   acceptSuggested(indices: readonly number[]): { keep: number; reject: number } {
-    const counts = { keep: 0, reject: 0 };
-    const given: Given[] = [];
-    for (const index of indices.filter(this.undecidedAt)) {
-      const verdict = suggestedAt(this.state.suggesting, index);
-      if (verdict === null) continue;
-      counts[verdict]++;
-      given.push({ index, verdict });
-    }
+    const given = suggestedVerdicts(this.state, indices);
     const { selected } = this.state;
     this.decide(given, "accept");
-    if (selected !== null && given.some(({ index }) => index === selected)) this.advance(selected);
-    return counts;
+    if (selected !== null && given.some(({ index }) => index === selected)) {
+      this.goTo(nextToJudge(this.state, selected));
+    }
+    const count = (wanted: Verdict) => given.filter(({ verdict }) => verdict === wanted).length;
+    return { keep: count("keep"), reject: count("reject") };
   }
 
-  private readonly shownAt = (index: number): boolean => isShown(this.state, index);
-  private readonly undecidedAt = (index: number): boolean => verdictAt(this.state, index) === "undecided";
+  private choose(next: Selection, follow = false): void {
+    if (next.selected !== this.state.selected) this.parts.stopwatch.restart();
+    if (next.selected !== null) this.place = next.selected;
+    const { followRequest } = this.state;
+    this.set({ ...next, followRequest: follow ? followRequest + 1 : followRequest });
+  }
+
+  /** Selects a candidate and has the view follow; false where there is none. */
+  private goTo(index: number | null): boolean {
+    if (index !== null) this.select(index, { follow: true });
+    return index !== null;
+  }
 
   private sequenceOf(order: ReviewOrder, suggesting: Suggesting): number[] {
     return reviewSequence(this.parts.candidates, order, this.parts.imageHeight, suggesting.of);
-  }
-
-  private advance(from: number): void {
-    const wanted = (index: number) => this.undecidedAt(index) && this.shownAt(index);
-    const next = nextInSequence(this.state.sequence, from, 1, wanted);
-    if (next !== null) this.select(next, { follow: true });
   }
 
   private replay(kind: "undo" | "redo"): ChangeGroup | null {
@@ -237,13 +217,8 @@ export class LabelStore {
     this.apply(changes, { kind, groupId: this.parts.newId(), targetGroupId: group.id });
     this.set({ history: kind === "undo" ? undone(history) : redone(history) });
     const [only, ...others] = group.changes;
-    const index = only === undefined || others.length > 0 ? null : this.indexOfSegment(only.segmentId);
-    if (index !== null) this.select(index, { follow: true });
+    if (only !== undefined && others.length === 0) this.goTo(this.indexOfSegment(only.segmentId));
     return group;
-  }
-
-  private probabilityShown({ index, suggestion }: Given): number | null {
-    return suggestion ?? suggestionAt(this.state.suggesting, index)?.probability ?? null;
   }
 
   private apply(changes: readonly VerdictChange[], act: Act): void {

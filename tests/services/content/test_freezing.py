@@ -8,11 +8,9 @@ from uuid import uuid4
 import numpy as np
 import pytest
 
-from app.db.models import REASONS as STORED_REASONS
 from app.db.models import Blob, Dataset, Image, Method, Split, SplitImage, SplitVersion, Submission
 from app.errors import NotFound
-from app.evaluation.rejected_lines import REASONS, RejectedLines
-from app.formats.labelled import REASONS as WRITTEN_REASONS
+from app.evaluation.rejected_lines import RejectedLines
 from app.formats.labelled import LabelledSegments
 from app.services.access import Viewer
 from app.services.blobs import keep_bytes
@@ -29,6 +27,7 @@ from app.services.scoring_inputs import images_to_score
 from app.services.split_overviews import labels_since
 from app.services.splits import SplitPlan, create_split, current_version, freeze_again, get_split
 from app.services.truths import ground_truths, read_truth, read_truth_with_reasons, truth_hash
+from app.verdicts import REASONS
 from app.vision.segments import Segments
 
 GRACE = timedelta(days=7)
@@ -136,10 +135,6 @@ def test_candidates_rejected_with_a_reason_go_along(place) -> None:
         assert read_truth_with_reasons(session, place.blobs, plain) == labels
     assert [REASONS[reason] for reason in rejected.reasons] == ["shadow"]
     assert rejected.segments.boxes()[0].tolist() == pytest.approx(candidates[2].box)
-
-
-def test_the_reasons_that_are_scored_are_those_that_people_give() -> None:
-    assert REASONS == STORED_REASONS == WRITTEN_REASONS
 
 
 def test_the_purge_leaves_what_splits_and_submissions_name(place) -> None:

@@ -10,6 +10,7 @@ from typing import TypeVar
 from sqlalchemy import func, select
 
 from app.db.models import Lease
+from app.services.assigning import assign
 from app.services.leases import renew_lease
 from app.services.stale_verdicts import StaleVerdict
 
@@ -56,3 +57,12 @@ def test_of_several_verdicts_at_once_none_is_overruled_unseen(office) -> None:
     stored = [verdicts[person] for person, refusal in zip(PEOPLE, told, strict=True) if refusal is None]
     assert len(set(stored)) == 1  # whoever agrees with what stands is no conflict
     assert {refusal for refusal in told if refusal is not None} == set(stored)
+
+
+def test_of_several_who_share_out_at_once_each_shares_what_is_left(office) -> None:
+    def share_out(person: str) -> int:
+        with office.database.write() as session:
+            shares = assign(session, office.dataset(session), [person], "shares", None, office.now)
+        return sum(share.images for share in shares)
+
+    assert sorted(at_once(share_out)) == [0, 0, 0, len(office.images)]

@@ -37,7 +37,7 @@ def test_what_is_new_becomes_an_undecided_candidate(office) -> None:
     assert current(office, office.first)[4:] == [("import", "undecided", 120.0), ("import", "undecided", 140.0)]
     with office.database.read() as session:
         image = session.get_one(Image, office.first)
-        scores = session.scalars(select(Segment.score).where(Segment.origin == "import")).all()
+        scores = session.scalars(select(Segment.score).where(Segment.origin == "import").order_by(Segment.score)).all()
         event = session.scalars(select(Event).where(Event.kind == "candidates.imported")).one()
     assert (image.n_candidates, image.revision, scores) == (6, 1, [pytest.approx(0.7), pytest.approx(0.9)])
     assert (event.person, event.details["added"]) == ("Mara", 2)

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from sqlalchemy import select
 
 from app.db.models import Blob, Camera, Image, Review
-from app.services.edits import EditGiven, StoredEdit, store_edit
+from app.services.edits import store_edit
+from app.services.stored_edits import EditGiven, StoredEdit
 
 
 def line(start: float, stop: float) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from threading import Barrier
 from typing import Any
 from uuid import uuid4
@@ -16,8 +17,10 @@ from app.errors import Conflict, InvalidInput, NotFound, TooLarge
 from app.services.deciding import decide
 from app.services.decision_batch import Wish
 from app.services.edited_points import MOST_POINTS, edited_image, made_polylines
-from app.services.edits import EditGiven, StoredEdit, edits_of_image, store_edit
+from app.services.edits import store_edit
 from app.services.stale_edits import StaleEdit
+from app.services.stale_verdicts import StaleVerdict
+from app.services.stored_edits import EditGiven, StoredEdit, edits_of_image
 
 
 def line(y: float, start: float = 10, stop: float = 130) -> np.ndarray:
@@ -275,3 +278,25 @@ def test_of_two_edits_at_the_same_moment_one_is_told_of_the_other(bench) -> None
     (lost,) = [outcome for outcome in outcomes if isinstance(outcome, StaleEdit)]
     assert lost.details["current"][0]["replaced_by"] == list(won.added)
     assert [entry.id for entry in bench.segments(bench.images[0])] == list(won.added)
+
+
+@pytest.mark.parametrize("kind", ["trim", "cut"])
+def test_an_edit_that_would_overrule_an_unseen_verdict_is_refused(bench, kind) -> None:
+    bench.detect(20)
+    image = bench.images[0]
+    whole = bench.at(image, 20)
+    bench.decide(image, {whole: "reject"})
+    adds = (line(20, 10, 60), line(20, 61, 130)) if kind == "cut" else (line(20, 10, 60),)
+    given = EditGiven(str(uuid4()), kind, (whole,), adds, seen=0)
+    if kind == "cut":  # the parts are rejected as the whole is: nobody is overruled
+        with bench.database.write() as session:
+            assert store_edit(session, image, given, "Jon", bench.now).verdicts.reject == 2
+        return
+    with pytest.raises(StaleVerdict) as caught, bench.database.write() as session:
+        store_edit(session, image, given, "Jon", bench.now)
+    (conflict,) = caught.value.details["conflicts"]
+    assert (conflict["segment_id"], conflict["yours"], conflict["theirs"]["verdict"]) == (whole, "keep", "reject")
+    assert [entry.id for entry in bench.segments(image)] == [whole]
+    seen = replace(given, seen=conflict["theirs"]["decision_id"])
+    with bench.database.write() as session:
+        assert store_edit(session, image, seen, "Jon", bench.now).verdicts.keep == 1

@@ -12,9 +12,10 @@ from app.db.models import Image
 from app.errors import UndecidedLeft
 from app.services.deciding import decide
 from app.services.decision_batch import Wish
-from app.services.edits import EditGiven, store_edit
+from app.services.edits import store_edit
 from app.services.images import get_image
 from app.services.reviews import set_review
+from app.services.stored_edits import EditGiven
 
 
 def traced(y: float) -> EditGiven:

@@ -6,11 +6,11 @@ from uuid import uuid4
 
 import pytest
 
-from app.db.models import REASONS
 from app.errors import Conflict, InvalidInput
 from app.services.deciding import decide
 from app.services.decision_batch import Wish
 from app.services.labelling import history
+from app.verdicts import REASONS
 
 
 def wish(segment_id: int, verdict: str = "reject", **fields) -> Wish:

@@ -1,9 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Edit, StoredDecision } from "../../api/types";
-import { NO_HISTORY } from "../history";
-import { LabelStore } from "../label_store";
-import { Stopwatch } from "../stopwatch";
 import { candidate } from "../test_candidates";
+import { undecidedStore } from "../test_store";
 import { carriedSelection } from "./carried_selection";
 import { describeEdit, describeEditReplay, editedSegments, isOutOfDate } from "./edits";
 
@@ -70,17 +68,7 @@ describe("edits", () => {
 
 describe("the history of an image with edits", () => {
   it("keeps what was drawn and undone, although its line isn't there", () => {
-    const store = new LabelStore({
-      candidates: [candidate(1)],
-      verdicts: ["undecided"],
-      reasons: [null],
-      history: NO_HISTORY,
-      imageHeight: 100,
-      order: "position",
-      stopwatch: new Stopwatch(() => 0),
-      newId: () => "id",
-      record: () => undefined,
-    });
+    const store = undecidedStore([candidate(1)]);
     const drawn = { ...DECISION, segment_id: 2, verdict: "keep", kind: "judge", group_id: "drawn" } as const;
     const undone = {
       ...DECISION,

@@ -4,7 +4,7 @@ import type { DecisionsStored, NewDecision, Verdict } from "../../api/types";
 import { Outbox } from "../outbox";
 import { memoryStorage, type OutboxStorage } from "../outbox_storage";
 import { SeenDecisions } from "./seen_decisions";
-import { staleCandidates } from "./stale_decisions";
+import { describeStaleEdit, staleCandidates } from "./stale_decisions";
 
 const ANSWER: DecisionsStored = {
   stored: 1,
@@ -137,5 +137,33 @@ describe("what was seen", () => {
       { ids: ["a", "b"], seen: 5 },
       { ids: ["c"], seen: 8 },
     ]);
+  });
+});
+
+describe("an edit that would overrule another's verdict", () => {
+  const refused = (code: string) => ({
+    title: "Conflict",
+    status: 409,
+    code,
+    message: "Jon decided meanwhile.",
+    details: {
+      conflicts: [
+        {
+          client_id: "a",
+          segment_id: 1,
+          theirs: { verdict: "reject", person: "Jon", created_at: "", decision_id: 7 },
+        },
+      ],
+    },
+  });
+
+  it("is told with theirs", () => {
+    expect(describeStaleEdit(refused("stale-verdict"))).toMatch(
+      /^Jon rejected this line meanwhile\. Nothing/,
+    );
+  });
+
+  it("isn't told of where the refusal is another one", () => {
+    expect(describeStaleEdit(refused("stale-edit"))).toBeNull();
   });
 });

@@ -72,7 +72,27 @@ export function seenByNow(stale: readonly StaleDecision[]): OutboxEntry[] {
   }));
 }
 
-function conflictsOf({ code, details }: Problem): Map<string, TheirVerdict> {
-  const listed = code === STALE_VERDICT ? (details?.conflicts as Conflict[] | undefined) : undefined;
-  return new Map((listed ?? []).map(({ client_id, theirs }) => [client_id, theirs]));
+/** What others said that an edit would have overruled unseen: "Jon rejected this line meanwhile."; null: no such thing. */
+export function describeStaleEdit(problem: Problem): string | null {
+  const told = listedIn(problem).map(
+    ({ theirs: { person, verdict } }) => `${person ?? "Someone"} ${SAID[verdict]}`,
+  );
+  if (told.length === 0) return null;
+  const said = [...new Set(told)].join(" and ");
+  return `${said} meanwhile. Nothing was changed; do it again if it is to be so all the same.`;
+}
+
+const SAID: Readonly<Record<Verdict, string>> = {
+  keep: "kept this line",
+  reject: "rejected this line",
+  ambiguous: "called this line ambiguous",
+  undecided: "took the verdict on this line back",
+};
+
+function conflictsOf(problem: Problem): Map<string, TheirVerdict> {
+  return new Map(listedIn(problem).map(({ client_id, theirs }) => [client_id, theirs]));
+}
+
+function listedIn({ code, details }: Problem): readonly Conflict[] {
+  return code === STALE_VERDICT ? ((details?.conflicts as Conflict[] | undefined) ?? []) : [];
 }

@@ -1,10 +1,9 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import type { NewDecision } from "../../api/types";
 import { candidateLook } from "../candidate_look";
-import { NO_HISTORY } from "../history";
-import { LabelStore } from "../label_store";
-import { Stopwatch } from "../stopwatch";
+import type { LabelStore } from "../label_store";
 import { candidate } from "../test_candidates";
+import { undecidedStore } from "../test_store";
 import { NOTHING_TOUCHED } from "../tools/preview";
 import type { Suggesting, Suggestion } from "./suggestions";
 
@@ -30,19 +29,8 @@ function suggesting(part: Partial<Suggesting> = {}): Suggesting {
 
 beforeEach(() => {
   recorded = [];
-  let id = 0;
   const candidates = [1, 2, 3, 4].map((number) => candidate(number));
-  store = new LabelStore({
-    candidates,
-    verdicts: candidates.map(() => "undecided"),
-    reasons: candidates.map(() => null),
-    history: NO_HISTORY,
-    imageHeight: 100,
-    order: "position",
-    stopwatch: new Stopwatch(() => 0),
-    newId: () => `id-${++id}`,
-    record: (decisions) => recorded.push(...decisions),
-  });
+  store = undecidedStore(candidates, recorded);
   store.setSuggesting(suggesting());
 });
 

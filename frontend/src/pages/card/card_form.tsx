@@ -1,12 +1,10 @@
 import { useQueryClient } from "@tanstack/react-query";
-import { type FormEvent, useState } from "react";
+import { useState } from "react";
 import { changeCard } from "../../api/board_endpoints";
 import { boardKeys } from "../../api/board_queries";
 import type { Card } from "../../api/board_types";
-import { asProblem } from "../../api/problem";
 import { keys } from "../../api/queries";
-import { Button } from "../../design/button";
-import { sentence } from "../../design/format";
+import { given, SavedForm } from "../saved_form";
 
 interface CardFormProps {
   slug: string;
@@ -20,33 +18,17 @@ export function CardForm({ slug, card, close }: CardFormProps) {
   const [description, setDescription] = useState(card.description ?? "");
   const [licence, setLicence] = useState(card.licence ?? "");
   const [citation, setCitation] = useState(card.citation ?? "");
-  const [busy, setBusy] = useState(false);
-  const [problem, setProblem] = useState<string | null>(null);
-  const submit = async (event: FormEvent) => {
-    event.preventDefault();
-    setBusy(true);
-    try {
-      await changeCard(slug, {
-        description: given(description),
-        licence: given(licence),
-        citation: given(citation),
-      });
-      await client.invalidateQueries({ queryKey: boardKeys.card(slug) });
-      void client.invalidateQueries({ queryKey: keys.dataset(slug), exact: true });
-      close();
-    } catch (error) {
-      setProblem(sentence(asProblem(error).message));
-      setBusy(false);
-    }
+  const save = async () => {
+    await changeCard(slug, {
+      description: given(description),
+      licence: given(licence),
+      citation: given(citation),
+    });
+    await client.invalidateQueries({ queryKey: boardKeys.card(slug) });
+    void client.invalidateQueries({ queryKey: keys.dataset(slug), exact: true });
   };
   return (
-    <form
-      className="section card card-form"
-      onSubmit={submit}
-      onKeyDown={(event) => {
-        if (event.key === "Escape") close();
-      }}
-    >
+    <SavedForm className="card-form" save={save} close={close}>
       <label className="field">
         <span className="field__label">Description</span>
         <textarea
@@ -79,24 +61,6 @@ export function CardForm({ slug, card, close }: CardFormProps) {
           onChange={(event) => setCitation(event.target.value)}
         />
       </label>
-      {problem ? (
-        <p className="field__error" role="alert">
-          {problem}
-        </p>
-      ) : null}
-      <div className="board-page__actions">
-        <Button type="submit" tone="primary" busy={busy}>
-          Save
-        </Button>
-        <Button tone="quiet" onClick={close}>
-          Cancel
-        </Button>
-      </div>
-    </form>
+    </SavedForm>
   );
-}
-
-function given(text: string): string | null {
-  const trimmed = text.trim();
-  return trimmed === "" ? null : trimmed;
 }

@@ -1,10 +1,8 @@
 import { useQuery } from "@tanstack/react-query";
-import { Link, useParams } from "react-router";
+import { useParams } from "react-router";
 import { cardQuery } from "../../api/board_queries";
-import { asProblem } from "../../api/problem";
-import { buttonClass } from "../../design/button";
 import { PageFrame } from "../../design/page_frame";
-import { EmptyState, ErrorState } from "../../design/states";
+import { ALL_DATASETS, Fetched, Missing, PageSkeleton } from "../fetched";
 import { CardView } from "./card_view";
 import "../board_page.css";
 import "./card.css";
@@ -13,7 +11,6 @@ import "./card.css";
 export function CardPage() {
   const { slug = "" } = useParams();
   const card = useQuery(cardQuery(slug));
-  const missing = card.isError && asProblem(card.error).status === 404;
   return (
     <PageFrame
       crumbs={[
@@ -22,25 +19,13 @@ export function CardPage() {
         { label: "Card" },
       ]}
     >
-      {card.data && !missing ? (
-        <CardView slug={slug} card={card.data} />
-      ) : missing ? (
-        <EmptyState
-          icon="search"
-          title="There is no such dataset"
-          actions={
-            <Link to="/" className={buttonClass("primary")}>
-              All datasets
-            </Link>
-          }
-        />
-      ) : card.isError ? (
-        <ErrorState error={card.error} onRetry={() => card.refetch()} />
-      ) : (
-        <div className="board-page" role="status" aria-label="Loading the card">
-          <div className="skeleton board-page__loading" />
-        </div>
-      )}
+      <Fetched
+        query={card}
+        missing={<Missing what="dataset" list={ALL_DATASETS} />}
+        loading={<PageSkeleton what="the card" />}
+      >
+        {(data) => <CardView slug={slug} card={data} />}
+      </Fetched>
     </PageFrame>
   );
 }

@@ -136,7 +136,7 @@ function Title({ dataset }: { dataset: Dataset }) {
 
 function More({ dataset }: { dataset: Dataset }) {
   const { remove } = useDatasetActions();
-  const { maintain } = useRights();
+  const { label, maintain } = useRights();
   const navigate = useNavigate();
   return (
     <Popover label="More" icon="more" iconOnly tone="quiet">
@@ -145,9 +145,11 @@ function More({ dataset }: { dataset: Dataset }) {
           <Link className="menu-item dataset-header__link" to={`/datasets/${dataset.slug}/card`}>
             <Icon name="paper" /> Dataset card
           </Link>
-          <Link className="menu-item dataset-header__link" to={`/datasets/${dataset.slug}/suggestions`}>
-            <Icon name="lines" /> Suggestions
-          </Link>
+          {label ? (
+            <Link className="menu-item dataset-header__link" to={`/datasets/${dataset.slug}/suggestions`}>
+              <Icon name="lines" /> Suggestions
+            </Link>
+          ) : null}
           <Link className="menu-item dataset-header__link" to="?tab=splits">
             <Icon name="podium" /> Splits and leaderboards
           </Link>

@@ -1,62 +1,39 @@
-/** Everything the keyboard does where differences are decided. */
+/** Everything the keyboard does where differences are decided: the label page's keys, as far as they apply. */
 
 import {
   type Command,
   IMAGE_PAGE_COMMANDS,
   type ImagePageActions,
+  reworded,
   VIEW_COMMANDS,
   type ViewActions,
 } from "../../image_view/commands";
 import { keymapOf } from "../../image_view/keymap";
-import type { Judged } from "./differences_state";
+import { MOVE_COMMANDS, type ReviewActions, UNDO, VERDICT_COMMANDS } from "../../labelling/commands_review";
 
-export interface DifferencesActions extends ViewActions, ImagePageActions {
-  decide(verdict: Judged): void;
-  step(direction: 1 | -1): void;
-  undo(): void;
-  takeBack(): void;
-  leave(): void;
-}
+export interface DifferencesActions
+  extends ViewActions,
+    ImagePageActions,
+    Pick<ReviewActions, "judge" | "undo" | "step" | "leaveSelection"> {}
 
-export const DIFFERENCES_COMMAND_GROUPS = ["Decide", "View", "Image"] as const;
+const DECIDE = "Decide";
+
+export const DIFFERENCES_COMMAND_GROUPS = [DECIDE, "View", "Image"] as const;
+
+const DECIDE_COMMANDS: readonly Command<DifferencesActions>[] = reworded<DifferencesActions>(
+  // Each one taken back is asked of the server first: holding the key would ask for the same one again.
+  [...VERDICT_COMMANDS, { ...UNDO, repeats: false }, ...MOVE_COMMANDS],
+  {
+    undecided: "Take this decision back",
+    undo: "Take the latest one back",
+    next: "Next difference",
+    previous: "Previous difference",
+    leave: "Close; leave the image",
+  },
+).map((command) => ({ ...command, group: DECIDE }));
 
 export const DIFFERENCES_COMMANDS: readonly Command<DifferencesActions>[] = [
-  { id: "keep", keys: ["K"], label: "Keep", group: "Decide", run: (a) => a.decide("keep") },
-  { id: "reject", keys: ["X"], label: "Reject", group: "Decide", run: (a) => a.decide("reject") },
-  { id: "ambiguous", keys: ["A"], label: "Ambiguous", group: "Decide", run: (a) => a.decide("ambiguous") },
-  {
-    id: "undecided",
-    keys: ["U"],
-    label: "Take this decision back",
-    group: "Decide",
-    run: (a) => a.takeBack(),
-  },
-  {
-    id: "undo",
-    keys: ["Z", "Ctrl+Z"],
-    label: "Take the latest one back",
-    group: "Decide",
-    run: (a) => a.undo(),
-  },
-  {
-    id: "next",
-    keys: ["Tab"],
-    label: "Next difference",
-    group: "Decide",
-    onImageOnly: true,
-    repeats: true,
-    run: (a) => a.step(1),
-  },
-  {
-    id: "previous",
-    keys: ["Shift+Tab"],
-    label: "Previous difference",
-    group: "Decide",
-    onImageOnly: true,
-    repeats: true,
-    run: (a) => a.step(-1),
-  },
-  { id: "leave", keys: ["Escape"], label: "Close; leave the image", group: "Decide", run: (a) => a.leave() },
+  ...DECIDE_COMMANDS,
   ...VIEW_COMMANDS,
   ...IMAGE_PAGE_COMMANDS,
 ];

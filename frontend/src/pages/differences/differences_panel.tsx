@@ -71,7 +71,7 @@ export function DifferencesPanel({ slug, differences, current, actions, panelRef
                 icon={ICONS[verdict]}
                 aria-pressed={current.adjudicated?.verdict === verdict}
                 aria-keyshortcuts={CAPS[verdict]}
-                onClick={() => actions.decide(verdict)}
+                onClick={() => actions.judge(verdict)}
               >
                 {NAMES[verdict]} <Keys keys={[CAPS[verdict]]} />
               </Button>

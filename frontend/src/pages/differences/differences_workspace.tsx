@@ -13,6 +13,7 @@ import { LoadingNotice } from "../../image_view/loading_notice";
 import { type KeyHint, StatusStrip } from "../../image_view/status_strip";
 import { useImageBitmap } from "../../image_view/use_image_bitmap";
 import { useFocusBackAfterClick, useKeys } from "../../image_view/use_keys";
+import { viewActions } from "../../image_view/view_actions";
 import {
   DIFFERENCES_COMMAND_GROUPS,
   DIFFERENCES_COMMANDS,
@@ -57,16 +58,13 @@ export function DifferencesWorkspace({ slug, differences, current }: Differences
 
   const actions = useMemo<DifferencesActions>(
     () => ({
-      decide,
+      judge: (verdict) => (verdict === "undecided" ? takeBack("current") : decide(verdict)),
       step,
       undo: () => takeBack("latest"),
-      takeBack: () => takeBack("current"),
-      leave: () => (keyList ? toggleKeyList() : panelRef.current?.focus()),
+      leaveSelection: () => (keyList ? toggleKeyList() : panelRef.current?.focus()),
       goToImage: stepImage,
       toggleKeyList,
-      fit: () => viewRef.current?.fit(),
-      zoom: (direction) => viewRef.current?.zoomStep(direction),
-      pan: (dx, dy) => viewRef.current?.panStep(dx, dy),
+      ...viewActions(() => viewRef.current),
     }),
     [decide, step, takeBack, stepImage, keyList, toggleKeyList],
   );

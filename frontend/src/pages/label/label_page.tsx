@@ -5,12 +5,13 @@ import { buttonClass } from "../../design/button";
 import { PageFrame } from "../../design/page_frame";
 import { ErrorState, LoadingState } from "../../design/states";
 import { shortName } from "../../image_view/short_name";
+import { outbox } from "../../labelling/outbox_start";
 import { LabelWorkspace } from "./label_workspace";
 import { JudgingContext, judgingOf } from "./people/judging";
 import { Presence } from "./people/presence";
 import { useLease } from "./people/use_lease";
-import { SaveIndicator } from "./save_indicator";
-import { useLabelSession } from "./use_label_session";
+import { SaveIndicator } from "./saving/save_indicator";
+import { useLabelSession } from "./session/use_label_session";
 import "../../image_view/image_view.css";
 import "../../image_view/panel.css";
 
@@ -33,7 +34,7 @@ export function LabelPage() {
       actions={
         <>
           <Presence others={lease.others} />
-          <SaveIndicator />
+          <SaveIndicator outbox={outbox} />
         </>
       }
     >

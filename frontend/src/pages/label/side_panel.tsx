@@ -11,17 +11,17 @@ import type { Shown } from "../../labelling/label_state";
 import type { LabelStore } from "../../labelling/label_store";
 import { REVIEW_ORDER_NAMES, REVIEW_ORDERS } from "../../labelling/order";
 import type { ImageLook } from "../../labelling/views/image_look";
-import { changeShown } from "./change_shown";
+import type { PageActions } from "./actions/page_actions";
+import { changeShown } from "./filter/change_shown";
 import { RangeSection } from "./filter/range_section";
-import { ImageSection } from "./image_section";
-import { ProgressSection } from "./progress_section";
-import { SelectionSection } from "./selection_section";
+import { ImageSection } from "./review/image_section";
+import { ProgressSection } from "./review/progress_section";
+import { SelectionSection } from "./selection/selection_section";
+import { useLabelState } from "./session/use_store";
 import { changeOrder } from "./suggestions/change_order";
 import { SuggestionSection } from "./suggestions/suggestion_section";
 import type { SuggestionSession } from "./suggestions/use_suggestions";
 import { judgeMany } from "./tools/judge_many";
-import type { PageActions } from "./use_label_actions";
-import { useLabelState } from "./use_store";
 import { ViewSection } from "./views/view_section";
 
 interface SidePanelProps {

@@ -1,8 +1,6 @@
-import { type FormEvent, useState } from "react";
+import { useState } from "react";
 import type { Method } from "../../api/board_types";
-import { asProblem } from "../../api/problem";
-import { Button } from "../../design/button";
-import { sentence } from "../../design/format";
+import { given, SavedForm } from "../saved_form";
 import { UrlField } from "../url_field";
 import { useMethodActions } from "./use_method_actions";
 
@@ -13,32 +11,15 @@ export function MethodForm({ method, close }: { method: Method; close: () => voi
   const [description, setDescription] = useState(method.description ?? "");
   const [code, setCode] = useState(method.code_url ?? "");
   const [paper, setPaper] = useState(method.paper_url ?? "");
-  const [busy, setBusy] = useState(false);
-  const [problem, setProblem] = useState<string | null>(null);
-  const submit = async (event: FormEvent) => {
-    event.preventDefault();
-    setBusy(true);
-    try {
-      await change({
-        name: name.trim(),
-        description: given(description),
-        code_url: given(code),
-        paper_url: given(paper),
-      });
-      close();
-    } catch (error) {
-      setProblem(sentence(asProblem(error).message));
-      setBusy(false);
-    }
-  };
+  const save = () =>
+    change({
+      name: name.trim(),
+      description: given(description),
+      code_url: given(code),
+      paper_url: given(paper),
+    });
   return (
-    <form
-      className="section card method-form"
-      onSubmit={submit}
-      onKeyDown={(event) => {
-        if (event.key === "Escape") close();
-      }}
-    >
+    <SavedForm className="method-form" save={save} close={close}>
       <label className="field">
         <span className="field__label">Name</span>
         <input
@@ -65,24 +46,6 @@ export function MethodForm({ method, close }: { method: Method; close: () => voi
         <UrlField label="Code" value={code} onChange={setCode} />
         <UrlField label="Paper" value={paper} onChange={setPaper} />
       </div>
-      {problem ? (
-        <p className="field__error" role="alert">
-          {problem}
-        </p>
-      ) : null}
-      <div className="board-page__actions">
-        <Button type="submit" tone="primary" busy={busy}>
-          Save
-        </Button>
-        <Button tone="quiet" onClick={close}>
-          Cancel
-        </Button>
-      </div>
-    </form>
+    </SavedForm>
   );
-}
-
-function given(text: string): string | null {
-  const trimmed = text.trim();
-  return trimmed === "" ? null : trimmed;
 }

@@ -6,7 +6,8 @@ import { buttonClass } from "../../design/button";
 import { PageFrame } from "../../design/page_frame";
 import { ErrorState, LoadingState } from "../../design/states";
 import { shortName } from "../../image_view/short_name";
-import { SecondSaveIndicator } from "./second_save_indicator";
+import { SaveIndicator } from "../label/saving/save_indicator";
+import { secondOutbox } from "./second_outbox";
 import { SecondWorkspace } from "./second_workspace";
 import { useSecondSession } from "./use_second_session";
 import "../../image_view/image_view.css";
@@ -30,7 +31,7 @@ export function SecondPage() {
           label: review === undefined ? "Second review" : `Second review of ${shortName(review.name)}`,
         },
       ]}
-      actions={<SecondSaveIndicator />}
+      actions={<SaveIndicator outbox={secondOutbox} />}
     >
       {error ? (
         <ErrorState

@@ -10,9 +10,9 @@ import { Magnifier } from "../../image_view/magnifier";
 import { isBent, verdictAt } from "../../labelling/label_state";
 import type { LabelStore } from "../../labelling/label_store";
 import { EvidenceSection } from "../label/evidence/evidence_section";
-import { ProgressSection } from "../label/progress_section";
-import { useLabelState } from "../label/use_store";
-import { VerdictButtons } from "../label/verdict_buttons";
+import { ProgressSection } from "../label/review/progress_section";
+import { VerdictButtons } from "../label/selection/verdict_buttons";
+import { useLabelState } from "../label/session/use_store";
 import type { SecondActions } from "./second_commands";
 
 interface SecondPanelProps {

@@ -9,8 +9,8 @@ import { LoadingNotice } from "../../image_view/loading_notice";
 import { type KeyHint, StatusStrip } from "../../image_view/status_strip";
 import { useImageBitmap } from "../../image_view/use_image_bitmap";
 import { useFocusBackAfterClick, useKeys } from "../../image_view/use_keys";
-import { Announcer } from "../label/announcer";
-import { CanvasRegion } from "../label/canvas_region";
+import { CanvasRegion } from "../label/image/canvas_region";
+import { Announcer } from "../label/selection/announcer";
 import { SECOND_COMMAND_GROUPS, SECOND_COMMANDS, SECOND_KEYMAP } from "./second_commands";
 import { SecondPanel } from "./second_panel";
 import { useSecondActions } from "./use_second_actions";
@@ -33,7 +33,7 @@ interface SecondWorkspaceProps {
 }
 
 export function SecondWorkspace({ slug, image, review, session }: SecondWorkspaceProps) {
-  const { scene, store } = session;
+  const { scene, store, whenHistoryKnown } = session;
   const viewRef = useRef<CanvasView | null>(null);
   const regionRef = useRef<HTMLElement | null>(null);
   const panelRef = useRef<HTMLElement | null>(null);
@@ -41,7 +41,16 @@ export function SecondWorkspace({ slug, image, review, session }: SecondWorkspac
   const [keyList, setKeyList] = useState(false);
   const toggleKeyList = useCallback(() => setKeyList((shown) => !shown), []);
   const { bitmap, error, retry } = useImageBitmap(displayUrl(image.id), image);
-  const actions = useSecondActions({ slug, review, store, viewRef, panelRef, keyList, toggleKeyList });
+  const actions = useSecondActions({
+    slug,
+    review,
+    store,
+    whenHistoryKnown,
+    viewRef,
+    panelRef,
+    keyList,
+    toggleKeyList,
+  });
   useKeys(SECOND_KEYMAP, actions);
   useFocusBackAfterClick(regionRef);
   useEffect(() => {
@@ -77,7 +86,7 @@ export function SecondWorkspace({ slug, image, review, session }: SecondWorkspac
         {keyList ? (
           <KeyList commands={SECOND_COMMANDS} groups={SECOND_COMMAND_GROUPS} onClose={toggleKeyList} />
         ) : null}
-        <StatusStrip hints={HINTS} scale={scale} actions={{ ...actions, goToImage: () => undefined }} />
+        <StatusStrip hints={HINTS} scale={scale} actions={actions} />
       </div>
       {store && scene ? (
         <SecondPanel

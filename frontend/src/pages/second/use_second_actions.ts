@@ -6,6 +6,7 @@ import { putSecondReview, type SecondReview, secondReviewsQuery, teamKeys } from
 import type { CanvasView } from "../../canvas/view";
 import { formatQuantity } from "../../design/format";
 import { toast } from "../../design/toast";
+import { viewActions } from "../../image_view/view_actions";
 import { describeReplay } from "../../labelling/history";
 import type { LabelStore } from "../../labelling/label_store";
 import type { SecondActions } from "./second_commands";
@@ -15,6 +16,7 @@ interface ActionParts {
   slug: string;
   review: SecondReview;
   store: LabelStore | null;
+  whenHistoryKnown: (act: () => void) => void;
   viewRef: RefObject<CanvasView | null>;
   panelRef: RefObject<HTMLElement | null>;
   keyList: boolean;
@@ -23,7 +25,7 @@ interface ActionParts {
 
 /** What keys and buttons do in a second review. */
 export function useSecondActions(parts: ActionParts): SecondActions {
-  const { slug, review, store, viewRef, panelRef, keyList, toggleKeyList } = parts;
+  const { slug, review, store, whenHistoryKnown, viewRef, panelRef, keyList, toggleKeyList } = parts;
   const navigate = useNavigate();
   const client = useQueryClient();
   return useMemo(() => {
@@ -88,7 +90,7 @@ export function useSecondActions(parts: ActionParts): SecondActions {
       store.setShown({ ...shown, verdicts: { ...shown.verdicts, reject: !shown.verdicts.reject } });
     }
 
-    function leave(): void {
+    function leaveSelection(): void {
       if (keyList) toggleKeyList();
       else if (store !== null && store.getState().selected !== null) store.select(null);
       else panelRef.current?.focus();
@@ -97,16 +99,14 @@ export function useSecondActions(parts: ActionParts): SecondActions {
     return {
       judge: (verdict) => void store?.judgeSelected(verdict),
       rejectUndecided,
-      undo: () => replay("undo"),
-      redo: () => replay("redo"),
+      undo: () => whenHistoryKnown(() => replay("undo")),
+      redo: () => whenHistoryKnown(() => replay("redo")),
       step: (direction) => store?.step(direction),
-      leave,
+      leaveSelection,
       toggleRejected,
       finish: () => void finish(),
       toggleKeyList,
-      fit: () => viewRef.current?.fit(),
-      zoom: (direction) => viewRef.current?.zoomStep(direction),
-      pan: (dx, dy) => viewRef.current?.panStep(dx, dy),
+      ...viewActions(() => viewRef.current),
     };
-  }, [slug, review, store, viewRef, panelRef, keyList, toggleKeyList, navigate, client]);
+  }, [slug, review, store, whenHistoryKnown, viewRef, panelRef, keyList, toggleKeyList, navigate, client]);
 }

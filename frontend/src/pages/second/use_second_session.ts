@@ -1,5 +1,5 @@
 import { queryOptions, useQuery } from "@tanstack/react-query";
-import { useEffect, useMemo } from "react";
+import { useCallback, useEffect, useMemo, useRef } from "react";
 import { getPoints } from "../../api/endpoints";
 import {
   beginSecondReview,
@@ -11,6 +11,7 @@ import {
 import type { SegmentFacts } from "../../api/types";
 import { decodePolylines } from "../../canvas/decode";
 import { makeScene, type Scene } from "../../canvas/scene";
+import { selectPolylines } from "../../canvas/select_polylines";
 import type { Size } from "../../canvas/viewport";
 import type { Annotations } from "../../labelling/annotations";
 import type { LabelStore } from "../../labelling/label_store";
@@ -30,6 +31,8 @@ export interface SecondSession {
   size: Size | undefined;
   scene: Scene | null;
   store: LabelStore | null;
+  /** Runs something once the history is known, or can't be had. */
+  whenHistoryKnown: (act: () => void) => void;
   error: unknown;
   retry: () => void;
 }
@@ -39,10 +42,11 @@ export function useSecondSession(imageId: number): SecondSession {
   const { data, error, refetch } = useQuery(secondQuery(imageId));
   const store = useMemo(() => (data === undefined ? null : openStore(data)), [data]);
 
+  const known = useRef<Promise<unknown>>(Promise.resolve());
   useEffect(() => {
     if (data === undefined || store === null) return;
     // For undo across reloads; without it undo begins with this visit.
-    getSecondDecisions(data.review.id)
+    known.current = getSecondDecisions(data.review.id)
       .then(({ decisions }) =>
         store.catchUp(
           decisions.map((decision) => ({ ...decision, person: null, reason: null, suggestion: null })),
@@ -51,12 +55,14 @@ export function useSecondSession(imageId: number): SecondSession {
       )
       .catch(() => undefined);
   }, [data, store]);
+  const whenHistoryKnown = useCallback((act: () => void) => void known.current.then(act), []);
 
   return {
     review: data?.review,
     size: data && { width: data.annotations.imageWidth, height: data.annotations.imageHeight },
     scene: data?.annotations.scene ?? null,
     store,
+    whenHistoryKnown,
     error,
     retry: () => refetch(),
   };
@@ -70,10 +76,16 @@ const secondQuery = (imageId: number) =>
       await secondOutbox.ready;
       // What was decided here a moment ago is in the answer then.
       if (secondOutbox.pendingFor(review.id).length > 0) await secondOutbox.flush().catch(() => undefined);
-      const [segments, scene] = await Promise.all([
+      const [segments, polylines] = await Promise.all([
         getSecondSegments(review.id),
-        getPoints(imageId).then((bytes) => makeScene(decodePolylines(bytes))),
+        getPoints(imageId).then(decodePolylines),
       ]);
+      if (polylines.revision !== segments.revision) {
+        throw new Error("The candidates have just changed; reload the page.");
+      }
+      // What a hand drew isn't judged a second time: it would tell what the first review kept.
+      const judged = new Set(segments.segments.map(({ id }) => id));
+      const scene = makeScene(selectPolylines(polylines, judged));
       return { review, annotations: annotationsOf(segments, scene) };
     },
     staleTime: Number.POSITIVE_INFINITY,

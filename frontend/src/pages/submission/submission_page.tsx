@@ -1,11 +1,9 @@
 import { Link, useParams, useSearchParams } from "react-router";
 import type { Submission } from "../../api/board_types";
 import { isFinal } from "../../api/follow_submission";
-import { asProblem } from "../../api/problem";
-import { buttonClass } from "../../design/button";
 import { formatCount } from "../../design/format";
 import { PageFrame } from "../../design/page_frame";
-import { EmptyState, ErrorState } from "../../design/states";
+import { ALL_LEADERBOARDS, Fetched, Missing, PageSkeleton } from "../fetched";
 import { Note } from "../note";
 import { Steps } from "../submit/steps";
 import { useSubmission } from "../use_submission";
@@ -26,7 +24,6 @@ type Tab = (typeof TABS)[number];
 export function SubmissionPage() {
   const { id = "" } = useParams();
   const submission = useSubmission(Number(id));
-  const missing = submission.isError && asProblem(submission.error).status === 404;
   const { data } = submission;
   return (
     <PageFrame
@@ -36,27 +33,17 @@ export function SubmissionPage() {
         { label: data ? `${data.method.name}${data.label ? ` ${data.label}` : ""}` : `Submission ${id}` },
       ]}
     >
-      {data && !missing ? (
-        <SubmissionView key={id} submission={data} />
-      ) : missing ? (
-        <EmptyState
-          icon="search"
-          title="There is no such submission"
-          actions={
-            <Link to="/splits" className={buttonClass("primary")}>
-              All leaderboards
-            </Link>
-          }
-        >
-          The address may be mistyped, or the submission is private and somebody else's.
-        </EmptyState>
-      ) : submission.isError ? (
-        <ErrorState error={submission.error} onRetry={() => submission.refetch()} />
-      ) : (
-        <div className="board-page" role="status" aria-label="Loading the submission">
-          <div className="skeleton board-page__loading" />
-        </div>
-      )}
+      <Fetched
+        query={submission}
+        missing={
+          <Missing what="submission" list={ALL_LEADERBOARDS}>
+            The address may be mistyped, or the submission is private and somebody else's.
+          </Missing>
+        }
+        loading={<PageSkeleton what="the submission" />}
+      >
+        {(known) => <SubmissionView key={id} submission={known} />}
+      </Fetched>
     </PageFrame>
   );
 }

@@ -1,10 +1,8 @@
 import { useQuery } from "@tanstack/react-query";
-import { Link, useParams } from "react-router";
-import { asProblem } from "../../api/problem";
+import { useParams } from "react-router";
 import { datasetQuery, datasetSuggestionsQuery } from "../../api/queries";
-import { buttonClass } from "../../design/button";
 import { PageFrame } from "../../design/page_frame";
-import { EmptyState, ErrorState } from "../../design/states";
+import { ALL_DATASETS, Fetched, Missing, PageSkeleton } from "../fetched";
 import { SuggestionsView } from "./suggestions_view";
 import "../board_page.css";
 import "./suggestions_page.css";
@@ -20,7 +18,6 @@ export function SuggestionsPage() {
     ...datasetSuggestionsQuery(slug),
     refetchInterval: ({ state }) => (state.data?.training.asked ? POLL : false),
   });
-  const missing = suggestions.isError && asProblem(suggestions.error).status === 404;
   return (
     <PageFrame
       crumbs={[
@@ -29,25 +26,13 @@ export function SuggestionsPage() {
         { label: "Suggestions" },
       ]}
     >
-      {suggestions.data && !missing ? (
-        <SuggestionsView slug={slug} suggestions={suggestions.data} />
-      ) : missing ? (
-        <EmptyState
-          icon="search"
-          title="There is no such dataset"
-          actions={
-            <Link to="/" className={buttonClass("primary")}>
-              All datasets
-            </Link>
-          }
-        />
-      ) : suggestions.isError ? (
-        <ErrorState error={suggestions.error} onRetry={() => suggestions.refetch()} />
-      ) : (
-        <div className="board-page" role="status" aria-label="Loading the suggestions">
-          <div className="skeleton board-page__loading" />
-        </div>
-      )}
+      <Fetched
+        query={suggestions}
+        missing={<Missing what="dataset" list={ALL_DATASETS} />}
+        loading={<PageSkeleton what="the suggestions" />}
+      >
+        {(data) => <SuggestionsView slug={slug} suggestions={data} />}
+      </Fetched>
     </PageFrame>
   );
 }

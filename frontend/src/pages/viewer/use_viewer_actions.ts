@@ -4,6 +4,7 @@ import { PALETTES } from "../../canvas/match_style";
 import type { CanvasView } from "../../canvas/view";
 import { toast } from "../../design/toast";
 import { copyLink } from "../../image_view/copy_link";
+import { viewActions } from "../../image_view/view_actions";
 import { nextInSequence } from "../../labelling/order";
 import type { Side } from "./difference";
 import { LAYER_NAMES } from "./layers";
@@ -79,9 +80,7 @@ export function useViewerActions(parts: ActionParts): ViewerActions {
         else now().say(direction === 1 ? "This is the last image" : "This is the first image");
       },
       toggleKeyList: () => now().keyList.toggle(),
-      fit: () => now().view()?.fit(),
-      zoom: (direction) => now().view()?.zoomStep(direction),
-      pan: (dx, dy) => now().view()?.panStep(dx, dy),
+      ...viewActions(() => now().view()),
     };
   }, [navigate]);
 }

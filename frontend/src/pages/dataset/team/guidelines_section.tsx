@@ -99,7 +99,7 @@ function GuidelinesForm({ slug, guidelines, close }: FormProps) {
       }}
     >
       <label className="field">
-        <span className="field__label">Guidelines, Markdown</span>
+        <span className="field__label">Guidelines</span>
         <textarea
           className="input team__text"
           rows={10}

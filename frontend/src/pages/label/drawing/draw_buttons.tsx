@@ -1,5 +1,15 @@
 import { IconButton } from "../../../design/button";
+import type { IconName } from "../../../design/icons";
 import type { DrawingActions } from "../../../labelling/drawing/commands_drawing";
+
+type EditAction = "cutLine" | "trimLine" | "joinLines" | "extendLine";
+
+const EDITS: readonly (readonly [action: EditAction, icon: IconName, label: string, keys: string[]])[] = [
+  ["cutLine", "cut", "Cut the line where you touched it", ["C"]],
+  ["trimLine", "trim", "Trim its nearer end up to there", ["Shift", "C"]],
+  ["joinLines", "join", "Join the two selected lines", ["M"]],
+  ["extendLine", "extend", "Extend the line along its edge", ["Shift", "L"]],
+];
 
 /** Drawing for hands that hold no keys; cut and trim act where the image was touched last. */
 export function DrawButtons({ tracing, actions }: { tracing: boolean; actions: DrawingActions }) {
@@ -14,34 +24,16 @@ export function DrawButtons({ tracing, actions }: { tracing: boolean; actions: D
         aria-pressed={tracing}
         onClick={actions.toggleTrace}
       />
-      <IconButton
-        icon="cut"
-        label="Cut the line where you touched it"
-        keys={["C"]}
-        side="after"
-        onClick={actions.cutLine}
-      />
-      <IconButton
-        icon="trim"
-        label="Trim its nearer end up to there"
-        keys={["Shift", "C"]}
-        side="after"
-        onClick={actions.trimLine}
-      />
-      <IconButton
-        icon="join"
-        label="Join the two selected lines"
-        keys={["M"]}
-        side="after"
-        onClick={actions.joinLines}
-      />
-      <IconButton
-        icon="extend"
-        label="Extend the line along its edge"
-        keys={["Shift", "L"]}
-        side="after"
-        onClick={actions.extendLine}
-      />
+      {EDITS.map(([action, icon, label, keys]) => (
+        <IconButton
+          key={action}
+          icon={icon}
+          label={label}
+          keys={keys}
+          side="after"
+          onClick={actions[action]}
+        />
+      ))}
     </>
   );
 }

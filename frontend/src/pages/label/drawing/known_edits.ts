@@ -5,7 +5,7 @@ import type { Edit } from "../../../api/types";
 import { isOutOfDate } from "../../../labelling/drawing/edits";
 import type { LabelStore } from "../../../labelling/label_store";
 import { outbox } from "../../../labelling/outbox_start";
-import { annotationsKey } from "../use_label_session";
+import { annotationsKey } from "../session/use_label_session";
 
 const editsKey = (imageId: number) => [...keys.image(imageId), "edits"] as const;
 

@@ -10,8 +10,9 @@ import { TraceTool } from "../../../labelling/drawing/trace_tool";
 import { unsavedLines } from "../../../labelling/drawing/unsaved_lines";
 import type { LabelStore } from "../../../labelling/label_store";
 import { toolBox } from "../../../labelling/tools/tools_start";
+import { EDIT_TOAST } from "../actions/image_toasts";
 import { useToolBoxState } from "../tools/use_tool_box";
-import { EDIT_TOAST, type Edits } from "./use_edits";
+import type { Edits } from "./use_edits";
 import type { PointerPlaces } from "./use_pointer_places";
 
 /** How far from the pointer the line to cut may be, and one to join (screen px). */

@@ -9,13 +9,12 @@ import { toast } from "../../../design/toast";
 import type { Annotations } from "../../../labelling/annotations";
 import { describeEdit } from "../../../labelling/drawing/edits";
 import type { ChangeGroup } from "../../../labelling/history";
-import { outbox } from "../../../labelling/outbox_start";
-import { annotationsKey } from "../use_label_session";
+import { outbox, seenDecisions } from "../../../labelling/outbox_start";
+import { describeStaleEdit } from "../../../labelling/people/stale_decisions";
+import { EDIT_TOAST } from "../actions/image_toasts";
+import { annotationsKey } from "../session/use_label_session";
 import { editOf, noteEdit } from "./known_edits";
 import type { LatestEdit } from "./use_carried_selection";
-
-/** Has to go with its image: undo never reaches into another one. */
-export const EDIT_TOAST = "edit";
 
 export interface Edits {
   /**
@@ -40,7 +39,7 @@ export function useEdits(imageId: number, latest: LatestEdit, undo: (groupId: st
     async function make(edit: NewEdit): Promise<void> {
       // Verdicts first: the server knows what was decided on a line before it is replaced.
       await outbox.flush();
-      const stored = await postEdit(imageId, edit);
+      const stored = await postEdit(imageId, { ...edit, seen: seenDecisions.of(imageId) });
       noteEdit(queryClient, imageId, stored);
       latest.edit = stored;
       await reload();
@@ -58,13 +57,11 @@ export function useEdits(imageId: number, latest: LatestEdit, undo: (groupId: st
         const edit: NewEdit = { client_id: crypto.randomUUID(), kind, replaces };
         await make(at === undefined ? edit : { ...edit, at: [at.x, at.y] });
       } catch (error) {
-        const { message, hint } = asProblem(error);
-        toast({
-          key: EDIT_TOAST,
-          tone: "danger",
-          message: hint ? `${sentence(message)} ${sentence(hint)}` : sentence(message),
-        });
-        // Somebody else's edit is shown, as this one can't be made any more.
+        const problem = asProblem(error);
+        const { message, hint } = problem;
+        const told = hint ? `${sentence(message)} ${sentence(hint)}` : sentence(message);
+        toast({ key: EDIT_TOAST, tone: "danger", message: describeStaleEdit(problem) ?? told });
+        // Somebody else's edit or verdict is shown: this one can't be made, or not unseen.
         if (error instanceof RequestFailed && error.problem.status === 409) reload();
       } finally {
         busy.now = false;

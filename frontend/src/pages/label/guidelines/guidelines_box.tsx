@@ -16,7 +16,7 @@ export function GuidelinesBox({ slug, onClose }: GuidelinesBoxProps) {
   const { maintain } = useRights();
   const text = data?.guidelines ?? "";
   return (
-    <section className="guidelines" aria-label="Guidelines">
+    <section className="image-box guidelines" aria-label="Guidelines">
       <header>
         <h2>Guidelines</h2>
         <IconButton small icon="cross" label="Close" keys={["Shift", "G"]} side="end" onClick={onClose} />

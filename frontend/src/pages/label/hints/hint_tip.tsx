@@ -8,7 +8,7 @@ import { hintBook } from "../../../labelling/hints/hints_start";
 import type { LabelState } from "../../../labelling/label_state";
 import type { LabelStore } from "../../../labelling/label_store";
 import { countSuggested } from "../../../labelling/suggestions/suggestions";
-import { useLabelState } from "../use_store";
+import { useLabelState } from "../session/use_store";
 import "./hints.css";
 
 /** One thing that a newcomer may not know yet, beside the keys that everybody needs. */

@@ -1,6 +1,6 @@
 import { createContext, useContext } from "react";
 import type { Present } from "../../../api/people_endpoints";
-import { LOOKING_ONLY } from "../looking_only";
+import { LOOKING_ONLY } from "./looking_only";
 
 /** Whether candidates can be judged on this page now, and if not, why. */
 export interface Judging {

@@ -6,7 +6,7 @@ import { Keys } from "../../../design/kbd";
 import type { LabelStore } from "../../../labelling/label_store";
 import { outbox } from "../../../labelling/outbox_start";
 import { type StaleCandidate, staleCandidates } from "../../../labelling/people/stale_decisions";
-import { VerdictMark } from "../verdict_mark";
+import { VerdictMark } from "../selection/verdict_mark";
 import "./people.css";
 
 interface StaleListProps {

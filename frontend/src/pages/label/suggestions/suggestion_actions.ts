@@ -6,7 +6,7 @@ import { orderAfter, REVIEW_ORDER_NAMES } from "../../../labelling/order";
 import type { SuggestionActions } from "../../../labelling/suggestions/commands_suggestions";
 import type { SuggestionPreferences } from "../../../labelling/suggestions/preferences";
 import { describeAccepted } from "../../../labelling/suggestions/suggestions";
-import { REJECTED_TOAST } from "../use_label_actions";
+import { REJECTED_TOAST } from "../actions/image_toasts";
 import { changeOrder } from "./change_order";
 
 const HINT_TOAST = "suggestions";

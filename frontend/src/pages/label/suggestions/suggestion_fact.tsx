@@ -1,6 +1,6 @@
 import { reasonPhrase } from "../../../labelling/suggestions/feature_words";
 import { type Suggesting, suggestionAt, verdictFor } from "../../../labelling/suggestions/suggestions";
-import { VerdictMark } from "../verdict_mark";
+import { VerdictMark } from "../selection/verdict_mark";
 
 const MARKS = { keep: "suggestedKeep", reject: "suggestedReject" } as const;
 const WORDS = { keep: "Keep", reject: "Reject" } as const;

@@ -8,7 +8,7 @@ import { Keys } from "../../../design/kbd";
 import { type LabelState, verdictAt } from "../../../labelling/label_state";
 import { THRESHOLD_RANGES } from "../../../labelling/suggestions/preferences";
 import { countSuggested } from "../../../labelling/suggestions/suggestions";
-import { VerdictMark } from "../verdict_mark";
+import { VerdictMark } from "../selection/verdict_mark";
 import { useOnScreen } from "./use_on_screen";
 import type { SuggestionSession } from "./use_suggestions";
 import "./suggestions.css";

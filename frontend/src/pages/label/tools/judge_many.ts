@@ -3,9 +3,8 @@ import { formatQuantity } from "../../../design/format";
 import { toast } from "../../../design/toast";
 import type { LabelStore } from "../../../labelling/label_store";
 import { REASON_NAMES } from "../../../labelling/reasons";
+import { MANY_TOAST } from "../actions/image_toasts";
 
-/** Has to go with its image: undo never reaches into another one. */
-export const MANY_TOAST = "many";
 const DURATION = 4_000;
 
 const DONE: Readonly<Record<Verdict, string>> = {

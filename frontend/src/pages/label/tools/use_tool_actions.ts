@@ -8,8 +8,9 @@ import { familyOfSelection } from "../../../labelling/families";
 import { FOCUSES, isShown, reasonAt, verdictAt } from "../../../labelling/label_state";
 import type { LabelStore } from "../../../labelling/label_store";
 import { toolBox } from "../../../labelling/tools/tools_start";
-import { changeShown } from "../change_shown";
-import { judgeSelection, MANY_TOAST, tellMany } from "./judge_many";
+import { MANY_TOAST } from "../actions/image_toasts";
+import { changeShown } from "../filter/change_shown";
+import { judgeSelection, tellMany } from "./judge_many";
 
 const FOCUS_NAMES = {
   all: "All candidates shown",
