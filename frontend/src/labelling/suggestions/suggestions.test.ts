@@ -6,6 +6,7 @@ import {
   describeAccepted,
   NOT_SUGGESTING,
   type Suggestion,
+  sameSuggesting,
   suggestedAt,
   verdictFor,
 } from "./suggestions";
@@ -64,4 +65,17 @@ it("tells what was accepted", () => {
 it("says each reason once, and an unknown one by its name", () => {
   expect(reasonPhrase(["residual", "straightness", "contrast", "new"])).toBe("straightness, contrast, new");
   expect(reasonPhrase(["residual", "straightness", "contrast"], 1)).toBe("straightness");
+});
+
+describe("suggestions that come again", () => {
+  const of = [suggestion(1, 0.9), null];
+  const shown = { of, thresholds, shown: true };
+
+  it("are the same where nothing would look different", () => {
+    expect(sameSuggesting(shown, { of: [...of], thresholds: { ...thresholds }, shown: true })).toBe(true);
+    expect(sameSuggesting(shown, { ...shown, shown: false })).toBe(false);
+    expect(sameSuggesting(shown, { ...shown, thresholds: { keep: 0.7, reject: 0.2 } })).toBe(false);
+    expect(sameSuggesting(shown, { ...shown, of: [suggestion(1, 0.9), null] })).toBe(false);
+    expect(sameSuggesting(shown, { ...shown, of: of.slice(1) })).toBe(false);
+  });
 });

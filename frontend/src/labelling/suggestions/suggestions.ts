@@ -44,6 +44,17 @@ export function byCandidate(
   return candidates.map(({ id }) => found.get(id) ?? null);
 }
 
+/** Whether two of them suggest the same, so that nothing has to be drawn anew. */
+export function sameSuggesting(one: Suggesting, other: Suggesting): boolean {
+  return (
+    one.shown === other.shown &&
+    one.thresholds.keep === other.thresholds.keep &&
+    one.thresholds.reject === other.thresholds.reject &&
+    one.of.length === other.of.length &&
+    one.of.every((suggestion, index) => suggestion === other.of[index])
+  );
+}
+
 /** How many of some candidates are suggested to be kept and to be rejected, and how many are left to a person. */
 export interface SuggestedCounts {
   readonly keep: number;

@@ -15,6 +15,8 @@ import { openLabelStore } from "../../../labelling/open_store";
 import { onDecisionsStored, outbox, seenDecisions } from "../../../labelling/outbox_start";
 import { readPreferences } from "../../../labelling/preferences";
 import { stopwatch } from "../../../labelling/stopwatch_start";
+import { readSuggestionPreferences, thresholdsFor } from "../../../labelling/suggestions/preferences";
+import { byCandidate } from "../../../labelling/suggestions/suggestions";
 import { NOTHING_TOUCHED } from "../../../labelling/tools/preview";
 
 const POLL = 1_500;
@@ -42,7 +44,7 @@ async function sent(imageId: number): Promise<void> {
 /** Has the lines drawn as they will be seen when the image is opened. */
 function prepareLines(annotations: Annotations): void {
   const { imageWidth: width, imageHeight: height, scene } = annotations;
-  const look = candidateLook(openStore(annotations).getState(), NOTHING_TOUCHED, getPalette());
+  const look = candidateLook(storeOf(annotations).getState(), NOTHING_TOUCHED, getPalette());
   linePainter.prepare(scene, look, { width, height });
 }
 
@@ -160,6 +162,18 @@ async function prefetch(queryClient: QueryClient, id: number): Promise<void> {
     queryClient.prefetchQuery(suggestionsQuery(id)),
     imageLoader.prefetch(displayUrl(id), image),
   ]);
+  const annotations = queryClient.getQueryData(annotationsQuery(id).queryKey);
+  const suggestions = queryClient.getQueryData(suggestionsQuery(id).queryKey);
+  if (annotations === undefined || suggestions === undefined) return;
+  const store = storeOf(annotations);
+  const preferences = readSuggestionPreferences(localStorage);
+  store.setSuggesting({
+    of: byCandidate(store.getState().candidates, suggestions),
+    thresholds: thresholdsFor(preferences, suggestions.thresholds),
+    shown: preferences.shown,
+  });
+  // Once more, for what is suggested is drawn too.
+  prepareLines(annotations);
 }
 
 /** A run that finishes, seen or unseen, while the image is open brings other candidates. */
