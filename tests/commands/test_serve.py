@@ -41,7 +41,12 @@ def test_a_folder_comes_in_once_and_what_is_new_is_queued(street: Path, tmp_path
 def test_two_servers_of_one_data_folder_end_without_a_word_of_trouble_when_told_to(
     start: Callable[..., subprocess.Popen[str]], street: Path
 ) -> None:
-    servers = [start("serve", street, "--no-browser", "--port", port) for port in free_ports(2)]
+    # whoever starts the tests in the background may have them ignore Ctrl-C, and children inherit that
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        servers = [start("serve", street, "--no-browser", "--port", port) for port in free_ports(2)]
+    finally:
+        signal.signal(signal.SIGINT, before)
     for server in servers:
         wait_for(server)
     for server, number in zip(servers, (signal.SIGINT, signal.SIGTERM), strict=True):
