@@ -160,7 +160,31 @@ describe("outbox", () => {
     outbox.add(1, [decision("a")]);
     await Promise.resolve();
     await settled(outbox);
-    expect(states).toContainEqual(expect.objectContaining({ kind: "offline", waiting: 1, kept: false }));
+    expect(states).toContainEqual(expect.objectContaining({ kind: "offline", waiting: 1, kept: "lost" }));
+    expect(outbox.atRisk).toBe(false);
+  });
+
+  it("says that a decision is kept only once the browser has stored it", async () => {
+    let finish: () => void = () => undefined;
+    const storing = new Promise<void>((resolve) => {
+      finish = resolve;
+    });
+    const states: SaveState[] = [];
+    let down = true;
+    const { outbox } = outboxTo(
+      () => {
+        if (!down) return;
+        down = false;
+        throw unreachable();
+      },
+      { ...memoryStorage(), lasting: true, add: () => storing },
+    );
+    outbox.add(1, [decision("a")]);
+    expect(outbox.atRisk).toBe(true);
+    outbox.subscribe(() => states.push(outbox.getState()));
+    finish();
+    await settled(outbox);
+    expect(states).toContainEqual(expect.objectContaining({ kind: "offline", waiting: 1, kept: "kept" }));
     expect(outbox.atRisk).toBe(false);
   });
 

@@ -17,6 +17,9 @@ const LONGEST_WAIT = 10_000;
 /** A browser's storage that doesn't answer for so long (ms) must not keep a decision from the server. */
 const STORAGE_PATIENCE = 1_500;
 
+/** Whether what waits survives a reload: it does, it will in a moment, or this browser keeps nothing. */
+export type Kept = "kept" | "storing" | "lost";
+
 export type SaveState =
   | { readonly kind: "saved" }
   | { readonly kind: "saving"; readonly waiting: number }
@@ -24,8 +27,7 @@ export type SaveState =
       readonly kind: "offline";
       readonly waiting: number;
       readonly problem: Problem;
-      /** Whether what waits survives a reload. */
-      readonly kept: boolean;
+      readonly kept: Kept;
     }
   | { readonly kind: "stale"; readonly stale: readonly StaleDecision[] }
   | { readonly kind: "refused"; readonly refused: readonly RefusedDecision[] };
@@ -52,11 +54,14 @@ export class Outbox {
   private stale: readonly StaleDecision[] = [];
   private problem: Problem | null = null;
   private pumping: Promise<void> | null = null;
-  private stored: Promise<unknown> = Promise.resolve();
+  /** Settles once the browser's storage has what was added last, or has kept silent for too long. */
+  private stored: Promise<void> = Promise.resolve();
+  /** What the next transaction of the storage takes with it. */
+  private toStore: OutboxEntry[] | null = null;
+  /** Each transaction that hasn't succeeded, with what its entries are meanwhile. */
+  private readonly unkept = new Map<readonly OutboxEntry[], Kept>();
   private restored: Promise<void> = Promise.resolve();
   private state: SaveState = { kind: "saved" };
-  /** Whether the browser keeps what waits here. */
-  private kept = true;
   private endPause: () => void = () => undefined;
   private readonly listeners = new Set<() => void>();
 
@@ -89,13 +94,13 @@ export class Outbox {
       this.stale.filter((entry) => entry.imageId === imageId && judged.has(entry.decision.segment_id)),
     );
     this.queue = [...this.queue, ...entries];
-    this.stored = Promise.all([this.stored, this.store(entries)]);
+    this.store(entries);
     this.pump();
   }
 
   /** True where a reload would lose something. */
   get atRisk(): boolean {
-    return this.queue.length > 0 && !this.kept;
+    return this.queue.length > 0 && this.kept !== "kept";
   }
 
   /** Tries at once instead of after the pause that a failure brings. */
@@ -152,16 +157,42 @@ export class Outbox {
     this.update();
   }
 
+  private get kept(): Kept {
+    const all = [...this.unkept.values()];
+    if (all.includes("lost")) return "lost";
+    return all.length > 0 ? "storing" : "kept";
+  }
+
+  /** One transaction at a time: what comes in meanwhile goes with the next, so a slow disk falls behind by two. */
+  private store(entries: readonly OutboxEntry[]): void {
+    if (this.toStore !== null) {
+      this.toStore.push(...entries);
+      return;
+    }
+    const batch = [...entries];
+    this.toStore = batch;
+    this.unkept.set(batch, "storing");
+    this.stored = this.stored.then(() => {
+      this.toStore = null;
+      return this.transact(batch);
+    });
+  }
+
   /** A full, forbidden or silent storage must not keep a decision from the server. */
-  private async store(entries: readonly OutboxEntry[]): Promise<void> {
+  private async transact(batch: readonly OutboxEntry[]): Promise<void> {
     const { storage, patience } = this.parts;
-    const storing = storage.add(entries).then(
-      () => storage.lasting,
-      () => false,
+    const settle = (kept: boolean) => {
+      if (!this.unkept.has(batch)) return;
+      if (kept) this.unkept.delete(batch);
+      else this.unkept.set(batch, "lost");
+      this.update();
+    };
+    const storing = storage.add(batch).then(
+      () => settle(storage.lasting),
+      () => settle(false),
     );
-    const kept = await Promise.race([storing, patience(STORAGE_PATIENCE).then(() => false)]);
-    if (!kept) this.kept = false;
-    this.update();
+    const silent = patience(STORAGE_PATIENCE).then(() => settle(false));
+    await Promise.race([storing, silent]);
   }
 
   private async takeUp(): Promise<void> {
@@ -261,7 +292,7 @@ export class Outbox {
     const ids = batch.map((entry) => entry.decision.client_id);
     const gone = new Set(ids);
     this.queue = this.queue.filter((entry) => !gone.has(entry.decision.client_id));
-    if (this.queue.length === 0) this.kept = true;
+    if (this.queue.length === 0) this.unkept.clear();
     // If this fails, the entries are sent once more at the next visit, and recognised there.
     this.parts.storage.remove(ids).catch(() => undefined);
   }

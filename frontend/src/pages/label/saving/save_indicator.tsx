@@ -1,7 +1,7 @@
 import { useRef, useSyncExternalStore } from "react";
 import { formatQuantity } from "../../../design/format";
 import { Icon, type IconName } from "../../../design/icons";
-import type { Outbox, SaveState } from "../../../labelling/outbox";
+import type { Kept, Outbox, SaveState } from "../../../labelling/outbox";
 import "./save_indicator.css";
 
 /** Says at any time whether everything decided has reached the server. */
@@ -37,6 +37,12 @@ export function SaveIndicator({ outbox }: { outbox: Outbox }) {
   );
 }
 
+const KEPT: Record<Kept, string> = {
+  kept: "kept here",
+  storing: "being kept",
+  lost: "only in this tab",
+};
+
 function describe(state: SaveState): { icon: IconName; text: string; title: string } {
   switch (state.kind) {
     case "saved":
@@ -46,13 +52,11 @@ function describe(state: SaveState): { icon: IconName; text: string; title: stri
     case "offline":
       return {
         icon: "offline",
-        text: state.kept
-          ? `Offline, ${state.waiting} kept here`
-          : `Offline, ${state.waiting} only in this tab`,
+        text: `Offline, ${state.waiting} ${KEPT[state.kept]}`,
         title: `${state.problem.message} ${
-          state.kept
-            ? "The decisions are kept in this browser and sent again by themselves."
-            : `This browser stores nothing for this page, so keep the tab open: ${formatQuantity(state.waiting, "decision")} would be lost with it.`
+          state.kept === "lost"
+            ? `This browser stores nothing for this page, so keep the tab open: ${formatQuantity(state.waiting, "decision")} would be lost with it.`
+            : "The decisions are kept in this browser and sent again by themselves."
         } Click to try now.`,
       };
     case "stale":
