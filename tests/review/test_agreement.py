@@ -50,7 +50,7 @@ def test_kappa_knows_no_first_and_second_and_no_order_of_verdicts(table: np.ndar
         assert kappa.high is not None
         assert -1 - 1e-9 <= kappa.low <= kappa.value <= kappa.high <= 1 + 1e-9
         assert turned.value == pytest.approx(kappa.value)
-        assert shuffled.low == pytest.approx(kappa.low)
+        assert shuffled.low == pytest.approx(kappa.low, abs=1e-7)  # a root of almost nothing
 
 
 @pytest.mark.parametrize("table", [[[1, 2, 3]], [[1, -1], [0, 2]], [[np.nan, 1], [1, 1]], np.zeros((0, 0))])

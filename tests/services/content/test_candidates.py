@@ -84,7 +84,7 @@ def test_counts_are_the_current_segments(place, seed) -> None:
     runs = [place.run(chance.sample(ids, 3), candidates=chance.randint(1, 4)) for _ in range(4)]
     place.label(ids[0], ["keep", "undecided", "ambiguous"])
     with place.database.write() as session:
-        for number, segment in enumerate(session.query(Segment).all()):
+        for number, segment in enumerate(session.query(Segment).order_by(Segment.id).all()):
             if chance.random() < 0.5 and segment.origin == "pipeline":
                 decide(session, segment, chance.choice(["keep", "reject", "ambiguous", "undecided"]), number, place.now)
             if chance.random() < 0.2:

@@ -215,9 +215,8 @@ def test_york_labels_are_stored_as_they_are_read(place, tmp_path) -> None:
             rows = session.query(Segment).filter_by(image_id=image.id).order_by(Segment.ordinal).all()
             stored = Segments.from_list([np.frombuffer(row.points, "<f4").reshape(-1, 2) for row in rows])
             assert stored == expected
-        assert [row.name for row in session.query(Camera).filter(Camera.reference.is_not(None))] == [
-            image.name for image in report.added
-        ]
+        cameras = session.query(Camera).filter(Camera.reference.is_not(None)).order_by(Camera.id)
+        assert [row.name for row in cameras] == [image.name for image in report.added]
         done = list_images(session, place.find(session, result.slug), ImageFilter(status="done"))
     assert done.total == 6
 

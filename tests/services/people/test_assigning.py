@@ -53,7 +53,7 @@ def test_assigned_images_are_told_with_what_is_done_of_them(office) -> None:
     with office.database.write() as session:
         decided = WorkLogs(office.database).of(office.dataset_id, office.now).decisions_by_person()
         found = people_of(session, office.dataset(session), decided)
-        events = session.scalars(select(Event).where(Event.kind == "images.assigned")).all()
+        events = session.scalars(select(Event).where(Event.kind == "images.assigned").order_by(Event.id)).all()
     assert [(one.person, one.assigned, one.done, one.decisions) for one in found] == [
         ("Jon", 1, 0, 0),
         ("Lee", 0, 0, 4),

@@ -36,7 +36,9 @@ def test_what_fails_straightness_is_marked(small_bench) -> None:
     bench = small_bench
     bench.detect(20, 40, 60)
     with bench.database.write() as session:
-        for segment, value in zip(session.scalars(select(Segment).limit(3)), (0.49, 0.5, 0.9), strict=True):
+        for segment, value in zip(
+            session.scalars(select(Segment).order_by(Segment.id).limit(3)), (0.49, 0.5, 0.9), strict=True
+        ):
             segment.straightness = value
     assert [entry.straight for entry in bench.segments(bench.images[0])] == [False, True, True]
 
