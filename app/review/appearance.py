@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.review.strands import SAMPLES, Strands
+from app.vision.image_reading import read_image
 
 Array = NDArray[np.float64]
 
@@ -78,25 +79,8 @@ def _blurred(image: NDArray[Any], sigma: float) -> NDArray[np.float32]:
 
 
 def _read(image: NDArray[np.float32], points: Array) -> Array:
-    """Return the image at points ``(..., 2)`` in px, bilinear; beyond its border, the border's value."""
-    flat = points.reshape(-1, 2).astype(np.float32)
-    rows = -(-len(flat) // 4096)  # remap takes no more than 32,767 places in a row
-    padded = np.zeros((rows * 4096, 2), np.float32)
-    padded[: len(flat)] = flat
-    places = padded.reshape(rows, 4096, 2)
-    values = np.concatenate(
-        [
-            cv2.remap(
-                image,
-                np.ascontiguousarray(part[..., 0]),
-                np.ascontiguousarray(part[..., 1]),
-                cv2.INTER_LINEAR,
-                borderMode=cv2.BORDER_REPLICATE,
-            )
-            for part in np.array_split(places, max(1, rows // 4096))
-        ]
-    )
-    return values.reshape(-1)[: len(flat)].reshape(points.shape[:-1]).astype(np.float64)
+    """Return the image at points ``(..., 2)`` in px."""
+    return read_image(image, points).astype(np.float64)
 
 
 def _profiles(strands: Strands, smooth: NDArray[np.float32]) -> tuple[Array, Array]:

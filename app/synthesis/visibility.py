@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from app.synthesis.rasteriser import Picture
+from app.vision.image_reading import read_image
 
 LEAST_STEP = 8.0  # grey levels
 _ASIDE = 1.5  # px of the ideal picture
@@ -65,26 +65,12 @@ def contrasting(
     """
     offsets = np.array([-1.25, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.25])
     at = points[:, None] + offsets[None, :, None] * normals[:, None]
-    values = _smooth_along(_sample(grey, at), owners)
+    values = _smooth_along(read_image(grey, at), owners)
     step = values[:, 6] - values[:, 1]
     sign = np.sign(step)
     here, before, behind = (sign * (values[:, high] - values[:, low]) for low, high in ((2, 5), (0, 3), (4, 7)))
     strong = np.abs(step) >= LEAST_STEP * _SHARE_OF_STEP
     return strong & (here > 0) & (here >= _RIVAL * np.maximum(before, behind))
-
-
-def _sample(grey: NDArray[np.float32], at: NDArray[np.float64]) -> NDArray[np.float32]:
-    # cv2.remap takes maps of at most 32767 rows and columns
-    columns, flat = 1024, at.reshape(-1, 2).astype(np.float32)
-    rows = -(-len(flat) // columns)
-    padded = np.zeros((rows * columns, 2), np.float32)
-    padded[: len(flat)] = flat
-    x, y = (padded[:, axis].reshape(rows, columns) for axis in range(2))
-    taken = np.empty((rows, columns), np.float32)
-    for first in range(0, rows, 16384):
-        block = np.s_[first : first + 16384]
-        taken[block] = cv2.remap(grey, x[block], y[block], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    return taken.reshape(-1)[: len(flat)].reshape(at.shape[:-1])
 
 
 def _smooth_along(values: NDArray[np.float32], owners: NDArray[np.int64], reach: int = 3) -> NDArray[np.float32]:

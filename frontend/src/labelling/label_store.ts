@@ -19,7 +19,7 @@ import {
 } from "./selection";
 import type { Stopwatch } from "./stopwatch";
 import { suggestedVerdicts } from "./suggestions/accepting";
-import { NOT_SUGGESTING, type Suggesting, sameSuggesting } from "./suggestions/suggestions";
+import { NOT_SUGGESTING, type Suggesting, sameSuggesting, sameSuggestions } from "./suggestions/suggestions";
 import { countVerdicts } from "./verdicts";
 
 interface StoreParts {
@@ -176,7 +176,7 @@ export class LabelStore {
 
   setSuggesting(suggesting: Suggesting): void {
     if (sameSuggesting(suggesting, this.state.suggesting)) return;
-    const known = suggesting.of === this.state.suggesting.of;
+    const known = sameSuggestions(suggesting, this.state.suggesting);
     const sequence = known ? this.state.sequence : this.sequenceOf(this.state.order, suggesting);
     this.set({ suggesting, sequence });
   }

@@ -50,9 +50,13 @@ export function sameSuggesting(one: Suggesting, other: Suggesting): boolean {
     one.shown === other.shown &&
     one.thresholds.keep === other.thresholds.keep &&
     one.thresholds.reject === other.thresholds.reject &&
-    one.of.length === other.of.length &&
-    one.of.every((suggestion, index) => suggestion === other.of[index])
+    sameSuggestions(one, other)
   );
+}
+
+/** Whether both are of the same answer, shown or not, whatever the thresholds. */
+export function sameSuggestions({ of: one }: Suggesting, { of: other }: Suggesting): boolean {
+  return one.length === other.length && one.every((suggestion, index) => suggestion === other[index]);
 }
 
 /** How many of some candidates are suggested to be kept and to be rejected, and how many are left to a person. */

@@ -1,3 +1,4 @@
+import { ColumnHeads } from "../../design/column_heads";
 import { CopyButton } from "./copy_button";
 import {
   answerSchema,
@@ -8,6 +9,7 @@ import {
   type Parameter,
   typeText,
 } from "./openapi";
+
 import { Prose, withCode } from "./prose";
 
 interface OperationSectionProps {
@@ -54,13 +56,7 @@ export function OperationSection({ document, operation }: OperationSectionProps)
 function Parameters({ parameters }: { parameters: Parameter[] }) {
   return (
     <table className="operation__parameters">
-      <thead>
-        <tr>
-          <th scope="col">Parameter</th>
-          <th scope="col">Type</th>
-          <th scope="col">Meaning</th>
-        </tr>
-      </thead>
+      <ColumnHeads columns={["Parameter", "Type", "Meaning"]} />
       <tbody>
         {parameters.map((parameter) => (
           <tr key={`${parameter.in} ${parameter.name}`}>

@@ -2,6 +2,7 @@ import { useState } from "react";
 import type { Card } from "../../api/board_types";
 import { useRights } from "../../api/use_rights";
 import { Button } from "../../design/button";
+import { ColumnHeads, numbers } from "../../design/column_heads";
 import { formatCount, formatQuantity } from "../../design/format";
 import { VerdictBar } from "../../design/progress";
 import { TableScroll } from "../../design/table_scroll";
@@ -56,24 +57,16 @@ function Sources({ card }: { card: Card }) {
       <h2 id="sources-title">Images by source</h2>
       <TableScroll label="Images by source">
         <table className="table">
-          <thead>
-            <tr>
-              <th scope="col">Source</th>
-              <th scope="col">Sizes, px</th>
-              <th scope="col" className="table__number">
-                Cameras
-              </th>
-              <th scope="col" className="table__number">
-                Sequences
-              </th>
-              <th scope="col" className="table__number">
-                Labelled
-              </th>
-              <th scope="col" className="table__number">
-                Images
-              </th>
-            </tr>
-          </thead>
+          <ColumnHeads
+            columns={[
+              "Source",
+              "Sizes, px",
+              numbers("Cameras"),
+              numbers("Sequences"),
+              numbers("Labelled"),
+              numbers("Images"),
+            ]}
+          />
           <tbody>
             {card.sources.map(({ source, sizes, cameras, sequences, labelled, images }) => (
               <tr key={source}>
@@ -118,26 +111,16 @@ function TableOne({ card }: { card: Card }) {
       </header>
       <TableScroll label="Pre-labelling against the labels">
         <table className="table">
-          <thead>
-            <tr>
-              <th scope="col">Source</th>
-              <th scope="col" className="table__number">
-                Images
-              </th>
-              <th scope="col" className="table__number">
-                Precision
-              </th>
-              <th scope="col" className="table__number">
-                Recall
-              </th>
-              <th scope="col" className="table__number">
-                F1
-              </th>
-              <th scope="col" className="table__number">
-                F1, clearlines-v2
-              </th>
-            </tr>
-          </thead>
+          <ColumnHeads
+            columns={[
+              "Source",
+              numbers("Images"),
+              numbers("Precision"),
+              numbers("Recall"),
+              numbers("F1"),
+              numbers("F1, clearlines-v2"),
+            ]}
+          />
           <tbody>
             {card.table_one.map((row) => (
               <tr key={row.source}>

@@ -1,4 +1,5 @@
 import { Link } from "react-router";
+import { ColumnHeads } from "../../design/column_heads";
 import { PageFrame } from "../../design/page_frame";
 import { TableScroll } from "../../design/table_scroll";
 import { METRIC_GROUPS } from "../metric_groups";
@@ -94,13 +95,7 @@ function Metrics() {
       <h2 id="metrics">Metrics</h2>
       <TableScroll label="Metrics" className="card">
         <table className="table">
-          <thead>
-            <tr>
-              <th scope="col">Metric</th>
-              <th scope="col">Key</th>
-              <th scope="col">What it says</th>
-            </tr>
-          </thead>
+          <ColumnHeads columns={["Metric", "Key", "What it says"]} />
           {METRIC_GROUPS.map(({ title, protocol, note, metrics }) => (
             <tbody key={title}>
               <tr>

@@ -3,6 +3,7 @@ import { Link, useSearchParams } from "react-router";
 import { comparisonQuery } from "../../api/board_queries";
 import type { Comparison, Difference, Submission } from "../../api/board_types";
 import { buttonClass } from "../../design/button";
+import { ColumnHeads, numbers } from "../../design/column_heads";
 import { formatCount } from "../../design/format";
 import { Icon } from "../../design/icons";
 import { EmptyState, ErrorState } from "../../design/states";
@@ -69,22 +70,16 @@ function ComparisonView({ submission, other }: { submission: Submission; other: 
       <ImagesShare comparison={comparison.data} />
       <TableScroll label="Differences">
         <table className="table compare">
-          <thead>
-            <tr>
-              <th scope="col">Metric</th>
-              <th scope="col" className="table__number">
-                This
-              </th>
-              <th scope="col" className="table__number">
-                Other
-              </th>
-              <th scope="col" className="table__number">
-                Difference
-              </th>
-              <th scope="col">95 % interval</th>
-              <th scope="col">Says</th>
-            </tr>
-          </thead>
+          <ColumnHeads
+            columns={[
+              "Metric",
+              numbers("This"),
+              numbers("Other"),
+              numbers("Difference"),
+              "95 % interval",
+              "Says",
+            ]}
+          />
           {METRIC_GROUPS.map((group) => (
             <Group key={group.title} group={group} differences={comparison.data.metrics} />
           ))}

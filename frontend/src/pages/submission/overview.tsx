@@ -2,6 +2,7 @@ import { useRef } from "react";
 import type { Measured, Submission } from "../../api/board_types";
 import { IntervalBar } from "../../charts/interval_bar";
 import { useWidth } from "../../charts/use_width";
+import { ColumnHeads, numbers } from "../../design/column_heads";
 import { formatDate } from "../../design/format";
 import { EmptyState } from "../../design/states";
 import { TableScroll } from "../../design/table_scroll";
@@ -69,20 +70,9 @@ function Provenance({ submission }: { submission: Submission }) {
       <h2 id="provenance-title">Under what these numbers stand</h2>
       <TableScroll label="Under what these numbers stand">
         <table className="table">
-          <thead>
-            <tr>
-              <th scope="col">Protocol</th>
-              <th scope="col">Version</th>
-              <th scope="col">Scorer</th>
-              <th scope="col">Ground truth</th>
-              <th scope="col" className="table__number">
-                F1
-              </th>
-              <th scope="col" className="table__number">
-                Scored
-              </th>
-            </tr>
-          </thead>
+          <ColumnHeads
+            columns={["Protocol", "Version", "Scorer", "Ground truth", numbers("F1"), numbers("Scored")]}
+          />
           <tbody>
             {[...current, ...older].map((score, index) => (
               <tr

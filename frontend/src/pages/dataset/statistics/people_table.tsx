@@ -1,4 +1,5 @@
 import type { Statistics } from "../../../api/team_endpoints";
+import { ColumnHeads, numbers } from "../../../design/column_heads";
 import { formatCount } from "../../../design/format";
 import { TableScroll } from "../../../design/table_scroll";
 import { timeText } from "./time_text";
@@ -11,29 +12,17 @@ export function PeopleTable({ statistics }: { statistics: Statistics }) {
       <h2 id="people-title">People</h2>
       <TableScroll label="Work by person">
         <table className="table">
-          <thead>
-            <tr>
-              <th scope="col">Person</th>
-              <th scope="col" className="table__number">
-                Decisions
-              </th>
-              <th scope="col" className="table__number">
-                Taken back
-              </th>
-              <th scope="col" className="table__number">
-                Hours
-              </th>
-              <th scope="col" className="table__number">
-                In an hour
-              </th>
-              <th scope="col" className="table__number">
-                Median
-              </th>
-              <th scope="col" className="table__number">
-                Half of them
-              </th>
-            </tr>
-          </thead>
+          <ColumnHeads
+            columns={[
+              "Person",
+              numbers("Decisions"),
+              numbers("Taken back"),
+              numbers("Hours"),
+              numbers("In an hour"),
+              numbers("Median"),
+              numbers("Half of them"),
+            ]}
+          />
           <tbody>
             {people.map(({ person, decisions, undone, hours, per_hour, times }) => (
               <tr key={person}>

@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { Link } from "react-router";
 import type { Agreement, Kappa } from "../../../api/team_endpoints";
 import { buttonClass } from "../../../design/button";
+import { ColumnHeads, numbers } from "../../../design/column_heads";
 import { formatCount, formatQuantity } from "../../../design/format";
 import { TableScroll } from "../../../design/table_scroll";
 import { intervalText, kappaText, kappaWord } from "./kappa_text";
@@ -91,20 +92,7 @@ function KappaTable({ title, rows }: KappaTableProps) {
   return (
     <TableScroll label={`Agreement: ${title}`}>
       <table className="table">
-        <thead>
-          <tr>
-            <th scope="col">{title}</th>
-            <th scope="col" className="table__number">
-              κ
-            </th>
-            <th scope="col" className="table__number">
-              95 %
-            </th>
-            <th scope="col" className="table__number">
-              Verdicts
-            </th>
-          </tr>
-        </thead>
+        <ColumnHeads columns={[title, numbers("κ"), numbers("95 %"), numbers("Verdicts")]} />
         <tbody>
           {rows.map(({ key, name, kappa }) => (
             <tr key={key}>

@@ -2,6 +2,7 @@ import { Link } from "react-router";
 import type { SecondReviews } from "../../../api/team_endpoints";
 import { Badge } from "../../../design/badge";
 import { buttonClass } from "../../../design/button";
+import { ColumnHeads } from "../../../design/column_heads";
 import { formatCount, formatDay, formatQuantity } from "../../../design/format";
 import { TableScroll } from "../../../design/table_scroll";
 
@@ -32,14 +33,7 @@ export function SecondReviewsSection({ slug, seconds }: { slug: string; seconds:
       {reviews.length === 0 ? null : (
         <TableScroll label="Second reviews">
           <table className="table">
-            <thead>
-              <tr>
-                <th scope="col">Image</th>
-                <th scope="col">Person</th>
-                <th scope="col">State</th>
-                <th scope="col">Begun</th>
-              </tr>
-            </thead>
+            <ColumnHeads columns={["Image", "Person", "State", "Begun"]} />
             <tbody>
               {reviews.slice(0, MOST).map((review) => (
                 <tr key={review.id}>

@@ -6,6 +6,7 @@ import { keys } from "../../../api/queries";
 import { assignImages, type Person, teamKeys } from "../../../api/team_endpoints";
 import type { Dataset } from "../../../api/types";
 import { Button } from "../../../design/button";
+import { ColumnHeads, numbers } from "../../../design/column_heads";
 import { formatCount, formatQuantity } from "../../../design/format";
 import { TableScroll } from "../../../design/table_scroll";
 import { toast } from "../../../design/toast";
@@ -35,20 +36,7 @@ export function TasksSection({ dataset, people, editable }: TasksSectionProps) {
       ) : (
         <TableScroll label="Tasks by person">
           <table className="table">
-            <thead>
-              <tr>
-                <th scope="col">Person</th>
-                <th scope="col" className="table__number">
-                  Images
-                </th>
-                <th scope="col" className="table__number">
-                  Done
-                </th>
-                <th scope="col" className="table__number">
-                  Decisions
-                </th>
-              </tr>
-            </thead>
+            <ColumnHeads columns={["Person", numbers("Images"), numbers("Done"), numbers("Decisions")]} />
             <tbody>
               {people.map(({ person, assigned, done, decisions }) => (
                 <tr key={person}>

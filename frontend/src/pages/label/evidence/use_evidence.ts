@@ -1,7 +1,7 @@
 import { useQuery } from "@tanstack/react-query";
-import { useEffect, useState } from "react";
 import { evidenceQuery } from "../../../api/queries";
 import type { Evidence } from "../../../api/types";
+import { useSettled } from "../../../design/use_settled";
 
 /** Whoever goes through candidates with Tab doesn't want each one measured (ms). */
 const PAUSE = 120;
@@ -11,19 +11,10 @@ export function useEvidence(
   imageId: number,
   segmentId: number,
 ): { evidence: Evidence | null; error: unknown } {
-  const settled = useSettled(segmentId);
+  const settled = useSettled<number | null>(segmentId, null, PAUSE);
   const { data, error } = useQuery({
     ...evidenceQuery(imageId, segmentId),
     enabled: settled === segmentId,
   });
   return { evidence: data ?? null, error };
-}
-
-function useSettled(segmentId: number): number | null {
-  const [settled, setSettled] = useState<number | null>(null);
-  useEffect(() => {
-    const timer = setTimeout(() => setSettled(segmentId), PAUSE);
-    return () => clearTimeout(timer);
-  }, [segmentId]);
-  return settled;
 }

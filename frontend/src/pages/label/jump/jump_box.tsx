@@ -5,6 +5,7 @@ import { keys } from "../../../api/queries";
 import type { ImageSummary } from "../../../api/types";
 import { ReviewBadge } from "../../../design/badge";
 import { formatCount } from "../../../design/format";
+import { useSettled } from "../../../design/use_settled";
 import "./jump.css";
 
 const MOST = 8;
@@ -20,7 +21,7 @@ interface JumpBoxProps {
 /** Goes to an image by part of its name. */
 export function JumpBox({ slug, onGo, onClose }: JumpBoxProps) {
   const [typed, setTyped] = useState("");
-  const search = useSettled(typed.trim());
+  const search = useSettled(typed.trim(), "", PAUSE);
   const [active, setActive] = useState(0);
   const input = useRef<HTMLInputElement>(null);
   const listId = useId();
@@ -114,13 +115,4 @@ function Entry({ id, image, selected, onGo }: EntryProps) {
       <ReviewBadge status={image.status} />
     </button>
   );
-}
-
-function useSettled(value: string): string {
-  const [settled, setSettled] = useState(value);
-  useEffect(() => {
-    const timer = setTimeout(() => setSettled(value), PAUSE);
-    return () => clearTimeout(timer);
-  }, [value]);
-  return settled;
 }

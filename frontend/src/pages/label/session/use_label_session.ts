@@ -15,8 +15,8 @@ import { openLabelStore } from "../../../labelling/open_store";
 import { onDecisionsStored, outbox, seenDecisions } from "../../../labelling/outbox_start";
 import { readPreferences } from "../../../labelling/preferences";
 import { stopwatch } from "../../../labelling/stopwatch_start";
-import { readSuggestionPreferences, thresholdsFor } from "../../../labelling/suggestions/preferences";
-import { byCandidate } from "../../../labelling/suggestions/suggestions";
+import { bringSuggestions } from "../../../labelling/suggestions/bring_suggestions";
+import { readSuggestionPreferences } from "../../../labelling/suggestions/preferences";
 import { NOTHING_TOUCHED } from "../../../labelling/tools/preview";
 
 const POLL = 1_500;
@@ -165,13 +165,7 @@ async function prefetch(queryClient: QueryClient, id: number): Promise<void> {
   const annotations = queryClient.getQueryData(annotationsQuery(id).queryKey);
   const suggestions = queryClient.getQueryData(suggestionsQuery(id).queryKey);
   if (annotations === undefined || suggestions === undefined) return;
-  const store = storeOf(annotations);
-  const preferences = readSuggestionPreferences(localStorage);
-  store.setSuggesting({
-    of: byCandidate(store.getState().candidates, suggestions),
-    thresholds: thresholdsFor(preferences, suggestions.thresholds),
-    shown: preferences.shown,
-  });
+  bringSuggestions(storeOf(annotations), suggestions, readSuggestionPreferences(localStorage));
   // Once more, for what is suggested is drawn too.
   prepareLines(annotations);
 }

@@ -4,14 +4,14 @@ import { suggestionsQuery } from "../../../api/queries";
 import type { SuggestionModelName } from "../../../api/types";
 import type { CanvasView } from "../../../canvas/view";
 import type { LabelStore } from "../../../labelling/label_store";
+import { bringSuggestions } from "../../../labelling/suggestions/bring_suggestions";
 import type { SuggestionActions } from "../../../labelling/suggestions/commands_suggestions";
 import {
   readSuggestionPreferences,
   type SuggestionPreferences,
-  thresholdsFor,
   writeSuggestionPreferences,
 } from "../../../labelling/suggestions/preferences";
-import { byCandidate, type Thresholds } from "../../../labelling/suggestions/suggestions";
+import type { Thresholds } from "../../../labelling/suggestions/suggestions";
 import { suggestionActions } from "./suggestion_actions";
 
 export interface SuggestionSession {
@@ -36,17 +36,11 @@ export function useSuggestions(
   const { data } = query;
   const [preferences, setPreferences] = useState(() => readSuggestionPreferences(localStorage));
 
-  const of = useMemo(
-    () => (data === undefined || store === null ? null : byCandidate(store.getState().candidates, data)),
-    [data, store],
-  );
   useEffect(() => {
-    if (store === null || of === null || data === undefined) return;
-    const thresholds = thresholdsFor(preferences, data.thresholds);
-    store.setSuggesting({ of, thresholds, shown: preferences.shown });
-  }, [store, of, data, preferences]);
+    if (store !== null && data !== undefined) bringSuggestions(store, data, preferences);
+  }, [store, data, preferences]);
 
-  const known = of !== null;
+  const known = store !== null && data !== undefined;
   return useMemo(() => {
     const prefer = (next: SuggestionPreferences) => {
       setPreferences(next);
