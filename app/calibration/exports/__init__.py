@@ -1,0 +1,1 @@
+"""A lens in the files that other tools read, each refitted and with its own conversion error."""

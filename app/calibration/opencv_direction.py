@@ -1,0 +1,47 @@
+"""The lens model as OpenCV writes it: Brown's polynomial carries corrected points to measured ones.
+
+The correction is its inverse, found by Newton's method; its derivatives follow from the implicit function theorem.
+Coordinates are in half diagonals from the image centre, as everywhere in the fit, so the coefficients are those of
+OpenCV for a focal length of half a diagonal and the distortion centre as principal point.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.calibration.inversion import invert
+from app.vision import brown
+from app.vision.brown import Mapped
+
+Array = NDArray[np.float64]
+
+
+def map_points(parameters: Array, x: Array, y: Array) -> Mapped:
+    """Correct points in normalised coordinates and give the Jacobian d(x_u, y_u) / d(x, y).
+
+    Args:
+        parameters: float64 ``(7,)``: k1, k2, k3, p1, p2, then the distortion centre, in half diagonals.
+        x: Measured coordinates in half diagonals from the image centre, any shape.
+        y: Likewise, same shape.
+
+    Returns:
+        Corrected points and Jacobian; NaN where the polynomial reaches no such measured point.
+    """
+    corrected_x, corrected_y = invert(brown.map_points, parameters, x, y)
+    forward = brown.map_points(parameters, corrected_x, corrected_y)
+    determinant = forward.xx * forward.yy - forward.xy**2
+    return Mapped(
+        corrected_x, corrected_y, forward.yy / determinant, -forward.xy / determinant, forward.xx / determinant
+    )
+
+
+def map_derivatives(parameters: Array, x: Array, y: Array) -> tuple[Array, Array]:
+    """Derivatives of the corrected coordinates by the seven parameters.
+
+    Returns:
+        d(x_u) and d(y_u), float64 ``(7, ...)`` each, in the order of `parameters`.
+    """
+    mapped = map_points(parameters, x, y)
+    forward_x, forward_y = brown.map_derivatives(parameters, mapped.x, mapped.y)
+    return -(mapped.xx * forward_x + mapped.xy * forward_y), -(mapped.xy * forward_x + mapped.yy * forward_y)
