@@ -10,11 +10,13 @@ import numpy as np
 from app.synthesis.geometry import Drawing, Panel, Points, texture_on
 from app.synthesis.ground_floor import draw_ground_floor
 from app.synthesis.light import Colour, Light, rgb
-from app.synthesis.textures import Materials, plaster
+from app.synthesis.noise import Pixels
+from app.synthesis.textures import Materials
+from app.synthesis.walls import on_wall
 from app.synthesis.windows import WindowStyle, draw_ledges, draw_windows
 
 HouseStyle = Literal["classical", "brick", "modern"]
-FLAT_BEYOND = 45.0  # m; farther houses are drawn with fewer parts
+FLAT_BEYOND = 36.0  # m; farther houses are drawn with fewer parts
 
 WALLS: dict[HouseStyle, tuple[tuple[int, int, int], ...]] = {
     "classical": (
@@ -65,23 +67,32 @@ def draw_house(drawing: Drawing, house: House, *, eye: Points, light: Light, mat
     distance = float(np.linalg.norm(panel.point(0, 1.6) - eye))
     detailed = distance < FLAT_BEYOND
     trim = _trim_of(house, rng)
-    detail = 20.0 if distance < 25 else 6.0
     _draw_chimneys(drawing, house, eye, light, rng)
     for near_end, u in ((True, 0.0), (False, width)):
         if (panel.locate(eye)[0] < 0) == near_end:
-            _draw_side(drawing, house, u, -panel.along if near_end else panel.along, light, rng)
+            _draw_side(drawing, house, u, -panel.along if near_end else panel.along, light, materials, rng)
 
-    _draw_roof(drawing, house, light, rng)
+    _draw_roof(drawing, house, light, materials, rng)
     front = panel.rectangles([0, 0, width, height])
-    pixels = plaster(np.random.default_rng(house.seed + 1), height, width, detail)
-    drawing.paint(front, light.shade(house.wall, panel.normal), kind="wall", textures=[texture_on(front[0], pixels)])
+    pictures = _wall_of(house, materials)
+    surface = on_wall(panel, pictures, distance, house.seed % 12)
+    drawing.paint(front, light.shade(house.wall, panel.normal), kind="wall", textures=[surface])
     if house.style != "modern":
         plinth = light.shade(house.wall * 0.62, panel.normal)
         drawing.paint(panel.rectangles([0, 0, width, 0.55]), plinth, kind="plinth")
 
     style = _windows_of(house, trim, rng)
     draw_ground_floor(
-        drawing, panel, width, house.ground_height, style, eye=eye, light=light, materials=materials, rng=rng
+        drawing,
+        panel,
+        width,
+        house.ground_height,
+        style,
+        eye=eye,
+        light=light,
+        materials=materials,
+        rng=rng,
+        detailed=detailed,
     )
     boxes = _window_boxes(house, rng)
     draw_windows(drawing, panel, boxes, style, eye=eye, light=light, materials=materials, rng=rng, detailed=detailed)
@@ -89,6 +100,13 @@ def draw_house(drawing: Drawing, house: House, *, eye: Points, light: Light, mat
     if rng.random() < 0.5 and detailed:
         pipe = [0.1, 0.2, 0.21, height - 0.3]
         draw_ledges(drawing, panel, pipe, 0.1, rgb(112, 112, 108), eye=eye, light=light, kind="downpipe", soft_shadow=0)
+
+
+def _wall_of(house: House, materials: Materials) -> tuple[Pixels, ...]:
+    walls = materials.walls
+    if house.style == "brick":
+        return walls.brick
+    return walls.stone if house.seed % 3 == 0 else walls.plaster
 
 
 def _trim_of(house: House, rng: np.random.Generator) -> Colour:
@@ -136,15 +154,21 @@ def _window_boxes(house: House, rng: np.random.Generator) -> np.ndarray:
 
 
 def _draw_side(
-    drawing: Drawing, house: House, u: float, normal: Points, light: Light, rng: np.random.Generator
+    drawing: Drawing,
+    house: House,
+    u: float,
+    normal: Points,
+    light: Light,
+    materials: Materials,
+    rng: np.random.Generator,
 ) -> None:
     """The wall at one end, seen over a lower neighbour or across a side street."""
     corner = house.panel.point(u, 0)
     back = Panel(corner, -house.panel.normal, normal)
     wall = back.rectangles([0, 0, house.depth, house.height])
-    pixels = plaster(np.random.default_rng(house.seed + 2), house.height, house.depth, 6.0)
+    surface = on_wall(back, _wall_of(house, materials), 20.0, (house.seed + 5) % 12)
     side = house.wall * rgb(0.9, 0.88, 0.86) * np.float32(rng.uniform(0.9, 1.0))
-    drawing.paint(wall, light.shade(side, normal), kind="side wall", textures=[texture_on(wall[0], pixels)])
+    drawing.paint(wall, light.shade(side, normal), kind="side wall", textures=[surface])
 
 
 def _draw_chimneys(drawing: Drawing, house: House, eye: Points, light: Light, rng: np.random.Generator) -> None:
@@ -156,7 +180,7 @@ def _draw_chimneys(drawing: Drawing, house: House, eye: Points, light: Light, rn
         draw_ledges(drawing, panel, box, 0.7, brick, eye=eye, light=light, kind="chimney", soft_shadow=0)
 
 
-def _draw_roof(drawing: Drawing, house: House, light: Light, rng: np.random.Generator) -> None:
+def _draw_roof(drawing: Drawing, house: House, light: Light, materials: Materials, rng: np.random.Generator) -> None:
     panel, width, height = house.panel, house.width, house.height
     tiles = rgb(*[(136, 82, 62), (96, 92, 96), (120, 72, 58), (84, 84, 92)][int(rng.integers(4))])
     if house.style == "modern":
@@ -164,8 +188,8 @@ def _draw_roof(drawing: Drawing, house: House, light: Light, rng: np.random.Gene
     steep = float(rng.uniform(2.2, 2.9))
     slope = panel.point([0, width, width, 0], height + np.array([steep, steep, 0, 0]), [-1.1, -1.1, -0.1, -0.1])
     normal = panel.normal * 0.92 + np.array([0, -0.4, 0])
-    pixels = plaster(np.random.default_rng(house.seed + 3), 2.5, width, 8.0, dirt=0.3)
-    drawing.paint(slope, light.shade(tiles, normal), kind="roof", textures=[texture_on(slope, pixels)])
+    texture = texture_on(slope, materials.walls.stone[1][:40])
+    drawing.paint(slope, light.shade(tiles, normal), kind="roof", textures=[texture])
     gable = [panel.point(0, height, -0.1), panel.point(0, height + steep, -1.1), panel.point(0, height, -4.0)]
     drawing.paint(np.array(gable), light.shade(house.wall * 0.85, -panel.along))
     drawing.lines(np.array(gable)[None], "gable")

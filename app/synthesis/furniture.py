@@ -28,9 +28,9 @@ def draw_post(drawing: Drawing, corners: Points, colour: Colour, light: Light, k
     drawing.lines(np.stack([[corners[0], corners[3]], [corners[1], corners[2]]]), kind)
 
 
-def draw_lamp(drawing: Drawing, x: float, z: float, light: Light) -> None:
-    """A street lamp: mast, a curved arm towards the road (not straight), and its head."""
-    iron, towards = rgb(74, 80, 82), -np.sign(x)
+def draw_lamp(drawing: Drawing, x: float, z: float, towards: int, light: Light) -> None:
+    """A street lamp: mast, a curved arm towards the road (-1: to the left, 1: to the right), and its head."""
+    iron = rgb(74, 80, 82)
     for corners in (post(x, z, KERB, KERB + 1.1, 0.2), post(x, z, KERB + 1.1, 6.2, 0.13)):
         draw_post(drawing, corners, iron, light)
     turn = np.linspace(0, np.pi / 2, 12)

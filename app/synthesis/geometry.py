@@ -6,7 +6,7 @@ Street coordinates: x right, y down, z forward, in m; the road is y = 0, so heig
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -73,10 +73,10 @@ class Chain:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A visible edge that isn't straight in the street, as points ``(n, 3)``, and why it isn't."""
+    """A visible edge that is no label, as points ``(n, 3)``, and what it is: see `app.synthesis.distractors`."""
 
     points: Points
-    reason: str
+    kind: str
 
 
 @dataclass(eq=False)
@@ -107,8 +107,8 @@ class Drawing:
         if kind is not None:
             self.outline(corners, kind)
 
-    def shadow(self, polygons: Sequence[Points], factor: ArrayLike, kind: str | None = "shadow") -> None:
-        """Darken the union of planar polygons by a colour factor ``(3,)``; their outlines are straight edges."""
+    def shadow(self, polygons: Sequence[Points], factor: ArrayLike, *, outlined: bool = True) -> None:
+        """Darken the union of planar polygons by a colour factor ``(3,)``; their outlines are distractors."""
         whole = [np.asarray(polygon, np.float64) for polygon in polygons if len(polygon) >= 3]
         if not whole:
             return
@@ -117,9 +117,14 @@ class Drawing:
         padded = np.stack([np.concatenate([p, np.repeat(p[-1:], most - len(p), axis=0)]) for p in whole])
         colours = np.broadcast_to(np.asarray(factor, np.float32), (len(padded), 3))
         self.batches.append(Batch(padded, colours, mode="shadow"))
-        if kind is not None:
-            for polygon in whole:
-                self.outline(polygon[None], kind)
+        if outlined:
+            self.shadow_outlines(whole)
+
+    def shadow_outlines(self, polygons: Sequence[Points]) -> None:
+        """Add the sides of shadows as distractors: each straight, and none an edge of a thing."""
+        for polygon in polygons:
+            for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+                self.curve(np.stack([start, end]), "shadow")
 
     def outline(self, corners: Points, kind: str) -> None:
         """Add the closed outlines of polygons ``(n, c, 3)`` as straight edges."""
@@ -129,15 +134,48 @@ class Drawing:
         """Add open chains of straight edges, ``(n, c, 3)``."""
         self.chains.append(Chain(np.asarray(corners, np.float64), kind))
 
-    def curve(self, points: Points, reason: str) -> None:
-        """Add a distractor: an edge that isn't straight, ``(n, 3)``."""
-        self.curves.append(Curve(np.asarray(points, np.float64), reason))
+    def curve(self, points: Points, kind: str) -> None:
+        """Add a distractor: an edge that is no label, ``(n, 3)``."""
+        self.curves.append(Curve(np.asarray(points, np.float64), kind))
 
-    def extend(self, other: Drawing) -> None:
-        """Paint another drawing on top."""
+    def extend(self, other: Drawing, turn: float = 0.0, about: Points | None = None) -> None:
+        """Paint another drawing on top, turned to the right by `turn` rad about the upright through ``(3,)``."""
+        if turn and about is not None:
+            other = other._turned(turn, about)
         self.batches.extend(other.batches)
         self.chains.extend(other.chains)
         self.curves.extend(other.curves)
+
+    def _turned(self, turn: float, about: Points) -> Drawing:
+        rotation = turned_right(turn)
+
+        def move(points: Points) -> Points:
+            return (points - about) @ rotation.T + about
+
+        def lay(texture: Texture | None) -> Texture | None:
+            if texture is None:
+                return None
+            across, down = rotation @ texture.across, rotation @ texture.down
+            return Texture(texture.pixels, move(texture.origin), across, down)
+
+        return Drawing(
+            [
+                replace(
+                    batch,
+                    corners=move(batch.corners),
+                    textures=None if batch.textures is None else [lay(texture) for texture in batch.textures],
+                )
+                for batch in self.batches
+            ],
+            [Chain(move(chain.corners), chain.kind) for chain in self.chains],
+            [Curve(move(curve.points), curve.kind) for curve in self.curves],
+        )
+
+
+def turned_right(turn: float) -> Points:
+    """The rotation ``(3, 3)`` by `turn` rad to the right, as seen from above."""
+    cosine, sine = np.cos(turn), np.sin(turn)
+    return np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,8 @@ SHOP_COLOURS: tuple[tuple[int, int, int], ...] = (
     (38, 74, 84), (124, 38, 40), (44, 62, 48), (52, 48, 58), (178, 128, 52), (196, 196, 188), (34, 52, 96),
 )  # fmt: skip
 
+_READABLE_WITHIN = 24.0  # m; farther lettering isn't drawn
+
 
 def draw_ground_floor(
     drawing: Drawing,
@@ -25,6 +27,7 @@ def draw_ground_floor(
     light: Light,
     materials: Materials,
     rng: np.random.Generator,
+    detailed: bool = True,
 ) -> None:
     """Divide a ground floor of width x height m into bays and fill each with a shop, a door or a window."""
     count = max(int(width / float(rng.uniform(3.2, 4.4))), 1)
@@ -37,13 +40,23 @@ def draw_ground_floor(
         left, right = index * bay, (index + 1) * bay
         bay_rng = np.random.default_rng(rng.integers(2**32))
         if index == door_at:
-            _draw_door(drawing, panel, (left + right) / 2, height, arched, style, eye, light, bay_rng)
+            _draw_door(drawing, panel, (left + right) / 2, height, arched, style, eye, light, bay_rng, detailed)
         elif shops:
-            _draw_shop(drawing, panel, left, right, height, shop_colour, eye, light, materials, bay_rng)
+            _draw_shop(drawing, panel, left, right, height, shop_colour, eye, light, materials, bay_rng, detailed)
         else:
             middle, half = (left + right) / 2, min(bay * 0.3, 0.75)
             box = [middle - half, 1.1, middle + half, min(height - 0.75, 2.9)]
-            draw_windows(drawing, panel, box, style, eye=eye, light=light, materials=materials, rng=bay_rng)
+            draw_windows(
+                drawing,
+                panel,
+                box,
+                style,
+                eye=eye,
+                light=light,
+                materials=materials,
+                rng=bay_rng,
+                detailed=detailed,
+            )
 
 
 def _draw_shop(
@@ -57,6 +70,7 @@ def _draw_shop(
     light: Light,
     materials: Materials,
     rng: np.random.Generator,
+    detailed: bool,
 ) -> None:
     front = [left + 0.12, 0.05, right - 0.12, height - 0.14]
     drawing.paint(panel.rectangles(front), light.shade(colour, panel.normal), kind="shop front")
@@ -64,12 +78,14 @@ def _draw_shop(
         colour, colour, np.clip(colour * 1.15 + 12, 0, 255), recess=0.12, surround=0.0, columns=2, sill=False
     )
     box = [left + 0.3, 0.55, right - 0.3, height - 1.2]
-    draw_windows(drawing, panel, box, style, eye=eye, light=light, materials=materials, rng=rng)
+    draw_windows(drawing, panel, box, style, eye=eye, light=light, materials=materials, rng=rng, detailed=detailed)
     sign = [left + 0.12, height - 1.0, right - 0.12, height - 0.44]
     board = np.clip(colour * 0.7 + 70, 0, 255) if rng.random() < 0.5 else colour
     draw_ledges(drawing, panel, sign, 0.1, board, eye=eye, light=light, kind="shop sign")
-    _draw_lettering(drawing, panel, sign, board, light, rng)
-    if rng.random() < 0.55:
+    has_awning = rng.random() < 0.55
+    if np.linalg.norm(panel.point(left, height) - eye) < _READABLE_WITHIN:
+        _draw_lettering(drawing, panel, sign, board, light, rng)
+    if has_awning:
         _draw_awning(drawing, panel, left + 0.2, right - 0.2, height - 1.04, colour, eye, light)
 
 
@@ -127,6 +143,7 @@ def _draw_door(
     eye: Points,
     light: Light,
     rng: np.random.Generator,
+    detailed: bool,
 ) -> None:
     half = float(rng.uniform(0.6, 0.85))
     top = min(height - 0.9, 2.5)
@@ -139,6 +156,8 @@ def _draw_door(
         drawing.paint(surround, light.shade(style.trim, panel.normal), kind="door surround")
         opening = panel.rectangles([middle - half, 0.12, middle + half, top])
         drawing.paint(opening, light.shade(wood * 0.72, panel.normal, sunlit=False), kind="door")
+    if not detailed:
+        return
     for side in (-1, 1):
         edges = sorted((middle + side * 0.04, middle + side * (half - 0.06)))
         for low, high in ((0.25, 1.05), (1.2, top - 0.12)):

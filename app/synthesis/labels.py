@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -15,13 +14,14 @@ from app.synthesis.projection import View
 from app.synthesis.rasteriser import Picture
 from app.synthesis.sampling import Samples, across, sample_edges
 from app.synthesis.sensor import LensMap
-from app.synthesis.visibility import contrasting, unhidden
+from app.synthesis.visibility import CLEAR_STEP, FAINT_STEP, REACH, contrast, unhidden
 from app.vision.segments import Segments
 
 SHORTEST = 20.0  # px
 _BRIDGE = 3  # samples; a shorter gap in an edge is no gap
 _TWIN = 1.2  # px; of two edges this close one is a label
 _PARALLEL = 0.12  # rad
+_CLEAR_SHARE = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +30,25 @@ class EdgeLabels:
 
     Attributes:
         segments: One polyline per visible fragment, a point about every px.
-        line_ids: Which edge of the street each fragment belongs to, int64 ``(S,)``.
-        kinds: What that edge is, or why it isn't straight; one per fragment.
+        line_ids: Which edge of the drawing each fragment belongs to, int64 ``(S,)``; fragments of one share it.
+        kinds: What that edge is; one per fragment.
+        clear: bool ``(S,)``: whether at least half of a fragment has a clear step of grey, else it is faint.
     """
 
     segments: Segments
     line_ids: NDArray[np.int64]
     kinds: tuple[str, ...]
+    clear: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class _Sight:
+    """Samples of edges, their normals, and for each whether it can be seen at all and clearly, bool ``(n,)``."""
+
+    samples: Samples
+    normals: NDArray[np.float64]
+    seen: NDArray[np.bool_]
+    clear: NDArray[np.bool_]
 
 
 def label_edges(
@@ -50,17 +62,25 @@ def label_edges(
     samples = sample_edges(
         np.concatenate([nothing, *starts]), np.concatenate([nothing, *ends]), view, lens_map, SHORTEST
     )
-    grey = np.asarray(cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY), np.float32)
-    runs = _visible_runs(samples, picture, grey)
-    return _collect(_without_twins(runs, samples, grey.shape), samples, kinds)
+    sight = _look(samples, picture, photo)
+    runs = _visible_runs(sight.seen, samples.owners)
+    return _collect(_without_twins(runs, samples, photo.shape), sight, kinds)
 
 
 def label_curves(
-    drawing: Drawing, view: View, lens_map: LensMap, picture: Picture, photo: NDArray[np.float32]
+    drawing: Drawing,
+    view: View,
+    lens_map: LensMap,
+    picture: Picture,
+    photo: NDArray[np.float32],
+    labels: EdgeLabels | None = None,
 ) -> EdgeLabels:
-    """Label what is visible of the curves of a drawing: edges that look like labels in part and are none."""
+    """Label what is visible of the curves of a drawing: edges that look like labels in part and are none.
+
+    Where a curve lies on a label (a shadow along the wall that casts it), it is left out.
+    """
     curves = [curve.points for curve in drawing.curves]
-    reasons = [curve.reason for curve in drawing.curves]
+    kinds = [curve.kind for curve in drawing.curves]
     nothing = np.zeros((0, 3))
     pieces = sample_edges(
         np.concatenate([nothing, *(points[:-1] for points in curves)]),
@@ -75,26 +95,61 @@ def label_curves(
     step = np.linalg.norm(np.diff(pieces.points, axis=0, prepend=np.inf), axis=1)
     fresh = (step > 0.3) | (np.diff(owners, prepend=-1) != 0)
     samples = Samples(pieces.points[fresh], pieces.places[fresh], pieces.inverse_depths[fresh], owners[fresh])
+    sight = _look(samples, picture, photo)
+    seen = sight.seen
+    if labels is not None:
+        seen = seen & ~_on_labels(sight, labels.segments, photo.shape)
+    return _collect(_visible_runs(seen, samples.owners), sight, kinds)
+
+
+def _collect(runs: list[tuple[int, int]], sight: _Sight, kinds: list[str]) -> EdgeLabels:
+    line_ids = np.array([sight.samples.owners[first] for first, _ in runs], np.int64)
+    polylines = [sight.samples.points[first:last] for first, last in runs]
+    clear = np.array([sight.clear[first:last].mean() >= _CLEAR_SHARE for first, last in runs], np.bool_)
+    return EdgeLabels(Segments.from_list(polylines), line_ids, tuple(kinds[int(line)] for line in line_ids), clear)
+
+
+def _look(samples: Samples, picture: Picture, photo: NDArray[np.float32]) -> _Sight:
+    height, width = photo.shape[:2]
     grey = np.asarray(cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY), np.float32)
-    return _collect(_visible_runs(samples, picture, grey), samples, reasons)
-
-
-def _collect(runs: list[tuple[int, int]], samples: Samples, kinds: list[str]) -> EdgeLabels:
-    line_ids = np.array([samples.owners[first] for first, _ in runs], np.int64)
-    polylines = [samples.points[first:last] for first, last in runs]
-    return EdgeLabels(Segments.from_list(polylines), line_ids, tuple(kinds[int(line)] for line in line_ids))
-
-
-def _visible_runs(samples: Samples, picture: Picture, grey: NDArray[np.float32]) -> list[tuple[int, int]]:
-    """Stretches ``[first, last)`` of one edge that can be seen, at least `SHORTEST` px long."""
-    height, width = grey.shape
     normals = across(samples.points, samples.owners)
     seen = unhidden(picture, samples.places, across(samples.places, samples.owners), samples.inverse_depths)
-    seen &= contrasting(grey, samples.points, normals, samples.owners)
     seen &= ((samples.points >= 0) & (samples.points <= [width - 1, height - 1])).all(axis=1)
-    breaks = np.flatnonzero(np.diff(samples.owners)) + 1
-    borders = np.concatenate([[0], breaks, [len(seen)]])
-    return [run for first, last in pairwise(borders) for run in _stretches(seen, first, last)]
+    step = np.zeros(len(seen), np.float32)
+    # neighbours along an edge count, so what is looked at reaches a little beyond what is seen
+    near = np.flatnonzero(np.convolve(seen, np.ones(2 * REACH + 1), "same") > 0) if len(seen) else np.zeros(0, np.int64)
+    step[near] = contrast(grey, samples.points[near], normals[near], samples.owners[near])
+    return _Sight(samples, normals, seen & (step >= FAINT_STEP), seen & (step >= CLEAR_STEP))
+
+
+def _visible_runs(seen: NDArray[np.bool_], owners: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """Stretches ``[first, last)`` of one edge that can be seen, at least `SHORTEST` px long."""
+    breaks = np.flatnonzero(np.diff(owners)) + 1
+    borders = np.concatenate([[0], breaks, [len(seen)]]).tolist()
+    counts = np.concatenate([[0], np.cumsum(seen)])[borders]
+    return [
+        run
+        for first, last, hits in zip(borders[:-1], borders[1:], np.diff(counts).tolist(), strict=True)
+        if hits > SHORTEST / 2
+        for run in _stretches(seen, first, last)
+    ]
+
+
+def _on_labels(sight: _Sight, labels: Segments, shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    """Which samples lie on a label and run along it."""
+    at = np.full((shape[0] + 2, shape[1] + 2), -1, np.int64)
+    places = labels.points.astype(np.float64)
+    normals = across(places, labels.segment_of_point)
+    cells = np.rint(places).astype(np.int64) + 1
+    for x in (-1, 0, 1):
+        for y in (-1, 0, 1):
+            at[(cells[:, 1] + y).clip(0, shape[0] + 1), (cells[:, 0] + x).clip(0, shape[1] + 1)] = np.arange(len(cells))
+    here = (np.rint(sight.samples.points).astype(np.int64) + 1).clip(0, [shape[1] + 1, shape[0] + 1])
+    other = at[here[:, 1], here[:, 0]]
+    if not len(normals):
+        return np.zeros(len(other), np.bool_)
+    turn = sight.normals[:, 0] * normals[other, 1] - sight.normals[:, 1] * normals[other, 0]
+    return (other >= 0) & (np.abs(turn) < _PARALLEL)
 
 
 def _stretches(seen: NDArray[np.bool_], first: int, last: int) -> Iterator[tuple[int, int]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,15 @@ from app.errors import InvalidInput
 _NEWTON_STEPS = 25
 _CONVERGED = 1e-9
 _DRAWN_DETERMINANT = 0.25
+
+LensKind = Literal["plain", "mild", "wide"]
+LENS_KINDS: tuple[LensKind, ...] = get_args(LensKind)
+# k1 from and to, and the focal length in image widths from and to
+_RANGES: dict[LensKind, tuple[tuple[float, float], tuple[float, float]]] = {
+    "plain": ((-0.08, 0.05), (0.7, 1.15)),
+    "mild": ((-0.28, -0.08), (0.6, 0.85)),
+    "wide": ((-0.45, -0.28), (0.6, 0.74)),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,17 +165,25 @@ def make_lens(width: int, height: int, focal: float, coefficients: ArrayLike) ->
     return Lens(width, height, matrix, np.asarray(coefficients, np.float64))
 
 
-def draw_lens(rng: np.random.Generator, width: int, height: int) -> Lens:
-    """Draw a lens: from plain to wide, as found on cars and in lens databases.
+def draw_lens(rng: np.random.Generator, width: int, height: int, kind: LensKind | None = None) -> Lens:
+    """Draw a lens: from plain to wide, as found in pocket cameras, on cars and in lens databases.
 
     Strong barrels get a positive k2 and a small k3, as calibrations of real ones have. A focal length at which the
     drawn polynomial would fold over inside the frame is made longer until it doesn't.
+
+    Args:
+        rng: What to draw from.
+        width: Image width in px.
+        height: Image height in px.
+        kind: Of the lens; drawn as well where none is given.
     """
-    k1 = float(rng.choice([rng.uniform(-0.08, 0.05), rng.uniform(-0.28, -0.08), rng.uniform(-0.45, -0.28)]))
-    k2 = float(-0.5 * k1 * rng.uniform(0.7, 1.1)) if k1 < 0 else float(rng.uniform(-0.02, 0.02))
+    kind = kind or LENS_KINDS[int(rng.integers(len(LENS_KINDS)))]
+    (weak, strong), (short, long) = _RANGES[kind]
+    k1 = float(rng.uniform(weak, strong))
+    k2 = float(-0.5 * k1 * rng.uniform(0.7, 1.1)) if kind != "plain" else float(rng.uniform(-0.02, 0.02))
     k3 = float(-0.14 * k2 * rng.uniform(0.5, 1.5))
     p1, p2 = rng.normal(0, 0.0006, 2).clip(-0.0015, 0.0015)
-    focal = float(width * (0.62 + rng.uniform(0.0, 0.14) + 0.25 * max(k1 + 0.1, 0)))
+    focal = float(width * rng.uniform(short, long))
     offset = rng.normal(0, 0.006, 2).clip(-0.015, 0.015) * width
     centre = np.array([(width - 1) / 2, (height - 1) / 2]) + offset
     while True:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.synthesis.bend import Bend
+from app.synthesis.clutter import plan_clutter
 from app.synthesis.facades import WALLS, House, HouseStyle
 from app.synthesis.geometry import Panel
+from app.synthesis.guard_rails import GuardRail
 from app.synthesis.light import TimeOfDay, draw_light, rgb
 from app.synthesis.road import END, KERB, Road
 from app.synthesis.street import Street, Thing
@@ -25,15 +28,18 @@ def plan_street(seed: int, time: TimeOfDay) -> Street:
         if rng.random() < 0.7:
             start = float(rng.uniform(20, 40))
             gaps.append((side, start, start + float(rng.uniform(10, 13))))
+    zebra = float(rng.uniform(11, 18)) if rng.random() < 0.5 else None
+    bend = _plan_bend(rng, length, zebra)
     road = Road(
         half_width=half,
         wall=wall,
         length=length,
         gaps=tuple(gaps),
         marking=str(rng.choice(["dashed", "dashed", "double", "tram"] if half > 4 else ["dashed", "double"])),
-        zebra=float(rng.uniform(11, 18)) if rng.random() < 0.5 else None,
+        zebra=zebra,
         parking=tuple(side for side in (-1, 1) if half > 4.3 and rng.random() < 0.7),
-        turning=gaps[0][0] if gaps and rng.random() < 0.6 else 0,
+        turning=gaps[0][0] if gaps and not bend.curvature and rng.random() < 0.6 else 0,
+        bend=bend,
     )
     houses = _plan_houses(rng, road)
     return Street(
@@ -44,8 +50,19 @@ def plan_street(seed: int, time: TimeOfDay) -> Street:
         houses=tuple(houses),
         cars=tuple(_plan_cars(rng, road)),
         things=tuple(_plan_things(rng, road)),
+        rails=tuple(_plan_rails(rng, road)),
+        clutter=plan_clutter(rng, road),
         lane=half * 0.42,
     )
+
+
+def _plan_bend(rng: np.random.Generator, length: float, zebra: float | None) -> Bend:
+    """Four streets in ten bend, by up to 0.8 rad; the camera stands on the straight part."""
+    if rng.random() < 0.6:
+        return Bend()
+    begins = float(rng.uniform(16, 32)) if zebra is None else zebra + float(rng.uniform(7, 14))
+    curvature = float(rng.choice([-1, 1])) / float(rng.uniform(45, 130))
+    return Bend(curvature, begins, begins + min(length - begins - 4, 0.8 / abs(curvature)))
 
 
 def _seed(rng: np.random.Generator) -> int:
@@ -65,12 +82,8 @@ def _plan_houses(rng: np.random.Generator, road: Road) -> list[House]:
                 width = float(min(rng.uniform(8.5, 17), end - z))
                 if end - z - width < 6:
                     width = end - z
-                panel = Panel(
-                    np.array([side * road.wall, -KERB, z]),
-                    np.array([0.0, 0.0, 1.0]),
-                    np.array([-float(side), 0.0, 0.0]),
-                )
-                house = _plan_house(rng, panel, width, tallness, last_wall)
+                panel, front = _front(road, side, z, z + width)
+                house = _plan_house(rng, panel, front, tallness, last_wall)
                 last_wall = tuple(house.wall)
                 houses.append(house)
                 z += width
@@ -79,12 +92,20 @@ def _plan_houses(rng: np.random.Generator, road: Road) -> list[House]:
     across = -36.0
     while across < 36:
         width = float(rng.uniform(11, 18))
-        panel = Panel(
-            np.array([across, -KERB, road.length + END]), np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -1.0])
-        )
+        corner, along = road.bend.place([across, across + 1.0], road.length + END, KERB)
+        along = along - corner
+        panel = Panel(corner, along, np.array([along[2], 0.0, -along[0]]))
         houses.append(_plan_house(rng, panel, width, tallness, last_wall))
         across += width
     return houses
+
+
+def _front(road: Road, side: int, z0: float, z1: float) -> tuple[Panel, float]:
+    """The upright plane over a chord of the building line, and the chord's length."""
+    first, last = road.bend.place(side * road.wall, [z0, z1], KERB)
+    width = float(np.linalg.norm(last - first))
+    along = (last - first) / width
+    return Panel(first, along, -side * np.array([along[2], 0.0, -along[0]])), width
 
 
 def _plan_house(
@@ -112,7 +133,9 @@ def _plan_house(
 def _plan_cars(rng: np.random.Generator, road: Road) -> list[Car]:
     def car(x: float, z: float, away: bool) -> Car:
         body = list(PROFILES)[int(rng.integers(len(PROFILES)))]
-        return Car(x, z, away, body, rgb(*PAINTS[int(rng.integers(len(PAINTS)))]))
+        paint = rgb(*PAINTS[int(rng.integers(len(PAINTS)))])
+        place = road.bend.place(x, z)
+        return Car(float(place[0]), float(place[2]), away, body, paint, float(road.bend.heading(z)))
 
     cars: list[Car] = []
     for side in (-1, 1):
@@ -135,6 +158,11 @@ def _plan_cars(rng: np.random.Generator, road: Road) -> list[Car]:
 
 def _plan_things(rng: np.random.Generator, road: Road) -> list[Thing]:
     things: list[Thing] = []
+
+    def stand(z: float, x: float, kind: str, size: float) -> None:
+        place = road.bend.place(x, z)
+        things.append(Thing(float(place[2]), float(place[0]), kind, size, _seed(rng), z, int(np.sign(x))))
+
     for side in (-1, 1):
         closed = [(g[1] - 3.5, g[2] + 3.5) for g in road.gaps if g[0] == side]
 
@@ -149,20 +177,44 @@ def _plan_things(rng: np.random.Generator, road: Road) -> list[Thing]:
             if not clear(place):
                 continue
             if index % 2 == 0:
-                things.append(Thing(place, edge, "lamp", 7.4, _seed(rng)))
+                stand(place, edge, "lamp", 7.4)
             elif with_trees:
-                things.append(Thing(place, edge + side * 0.3, "tree", float(rng.uniform(6.0, 8.5)), _seed(rng)))
-        signs = [float(z) for z in rng.uniform(7, 60, 4)]
-        things += [Thing(z, edge, "sign", 2.95, _seed(rng)) for z in signs if clear(z)]
+                stand(place, edge + side * 0.3, "tree", float(rng.uniform(6.0, 8.5)))
+        for z in rng.uniform(7, 60, 4):
+            if clear(float(z)):
+                stand(float(z), edge, "sign", 2.95)
         if road.zebra is not None:
-            things.append(Thing(road.zebra - 0.8, edge, "signal", 3.5, _seed(rng)))
+            stand(road.zebra - 0.8, edge, "signal", 3.5)
         start = float(rng.uniform(6, 34))
         if rng.random() < 0.6 and clear(start) and clear(start + 9):
-            row = side * (road.half_width + 0.3)
-            things += [Thing(start + 1.9 * place, row, "bollard", 0.95, _seed(rng)) for place in range(5)]
+            for place in range(5):
+                stand(start + 1.9 * place, side * (road.half_width + 0.3), "bollard", 0.95)
         for z in rng.uniform(6, 50, 3):
             if clear(float(z)):
-                kind = "cabinet" if rng.random() < 0.6 else "bush"
-                things.append(Thing(float(z), side * (road.wall - 0.55), kind, 1.25, _seed(rng)))
-    things += [Thing(float(z), 0.0, "wire", 7.2, _seed(rng)) for z in rng.uniform(9, 70, int(rng.integers(1, 5)))]
+                stand(float(z), side * (road.wall - 0.85), "cabinet" if rng.random() < 0.6 else "bush", 1.25)
+        for z in 3.0 + 45 * rng.random(int(rng.integers(1, 8))) ** 1.3:
+            across = float(rng.uniform(road.half_width + 0.6, road.wall - 0.5))
+            stand(float(z), side * across, "person", float(rng.uniform(1.5, 1.9)))
+    if road.zebra is not None:
+        for _ in range(int(rng.integers(0, 4))):
+            across = float(rng.uniform(-road.half_width, road.half_width))
+            stand(road.zebra + float(rng.uniform(0.5, 2.8)), across, "person", float(rng.uniform(1.5, 1.9)))
+    for z in rng.uniform(9, 70, int(rng.integers(1, 6))):
+        stand(float(z), 0.0, "wire", float(rng.uniform(6.4, 8.0)))
     return things
+
+
+def _plan_rails(rng: np.random.Generator, road: Road) -> list[GuardRail]:
+    """Beside one pavement in three: a rail between kerb and walkers, where no side street is."""
+    rails: list[GuardRail] = []
+    for side in (-1, 1):
+        if rng.random() < 0.35:
+            z0 = float(rng.uniform(3, 24))
+            z1 = z0 + float(rng.uniform(10, 40))
+            gaps = [g[1] - 4 for g in road.gaps if g[0] == side and g[2] > z0 - 4]
+            z1 = min(z1, road.length - 4, *gaps)
+            if road.zebra is not None and z0 < road.zebra + 5:
+                z1 = min(z1, road.zebra - 1.5)
+            if z1 - z0 > 4:
+                rails.append(GuardRail(side * (road.half_width + 0.28), z0, z1))
+    return rails

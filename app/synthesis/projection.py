@@ -11,6 +11,7 @@ from app.synthesis.camera import Pose
 from app.synthesis.geometry import Batch, Points, Texture, clip_convex
 
 NEAR = 0.35  # m; nothing closer is drawn
+_LEAST_AREA = 0.15  # px
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,20 +32,43 @@ class View:
 
 
 @dataclass(frozen=True, eq=False)
-class FlatPolygon:
-    """One surface in the picture: box, edge functions ``(c, 3)``, inverse depth and how it is painted."""
+class FlatPolygons:
+    """P surfaces in the picture, in painting order.
 
-    box: tuple[int, int, int, int]
+    Attributes:
+        batch: The batch each is of, int64 ``(P,)``, rising.
+        boxes: int64 ``(P, 4)``: left, top, right, bottom; right and bottom are the first px beyond.
+        edges: P arrays float32 ``(c, 3)``: edge functions, in px across the edge, positive inside.
+        planes: float64 ``(P, 3)``: inverse depth ``a x + b y + c`` (1/m).
+        colours: float32 ``(P, 3)``.
+        opacities: float32 ``(P,)``.
+        textures: P pictures, or nothing.
+    """
+
+    batch: NDArray[np.int64]
+    boxes: NDArray[np.int64]
+    edges: list[NDArray[np.float32]]
+    planes: NDArray[np.float64]
+    colours: NDArray[np.float32]
+    opacities: NDArray[np.float32]
+    textures: list[Texture | None]
+
+
+@dataclass(frozen=True, eq=False)
+class _Outlines:
+    """Polygons of equally many corners: which of a batch they are, boxes, edge functions and planes."""
+
+    batch: NDArray[np.int64]
+    place: NDArray[np.int64]
+    boxes: NDArray[np.int64]
     edges: NDArray[np.float32]
-    plane: NDArray[np.float64]
-    colour: NDArray[np.float32]
-    texture: Texture | None
-    opacity: float
+    planes: NDArray[np.float64]
 
 
-def project(batches: list[Batch], view: View) -> list[list[FlatPolygon]]:
-    """Project all polygons, those of equally many corners at once."""
-    projected: list[list[FlatPolygon]] = [[] for _ in batches]
+def project(batches: list[Batch], view: View) -> FlatPolygons:
+    """Project all polygons, those of equally many corners at once; what isn't in the picture is left out."""
+    groups: list[_Outlines] = []
+    cut: dict[int, list[tuple[Points, int, int]]] = {}
     for count in sorted({batch.corners.shape[1] for batch in batches}):
         chosen = [index for index, batch in enumerate(batches) if batch.corners.shape[1] == count]
         cameras = view.pose.to_camera(np.concatenate([batches[index].corners for index in chosen]))
@@ -52,39 +76,64 @@ def project(batches: list[Batch], view: View) -> list[list[FlatPolygon]]:
         places = np.concatenate([np.arange(len(batches[index].corners)) for index in chosen])
         depths = cameras[..., 2]
         whole = (depths >= NEAR).all(axis=1)
-        partly = np.flatnonzero(~whole & (depths > NEAR).any(axis=1))
-        found: list[tuple[int, tuple[NDArray, ...], int]] = []
-        outlines = _outlines(cameras[whole], view)
-        rows = np.flatnonzero(outlines[3])
-        found += [(int(row), outlines, int(at)) for row, at in zip(np.flatnonzero(whole)[rows], rows, strict=True)]
-        for row in partly:
+        groups.append(_outlines(cameras[whole], owners[whole], places[whole], view))
+        for row in np.flatnonzero(~whole & (depths > NEAR).any(axis=1)):
             clipped = clip_convex(cameras[row], np.array([0.0, 0.0, 1.0]), NEAR)
-            outline = _outlines(clipped[None], view) if len(clipped) >= 3 else None
-            if outline is not None and outline[3][0]:
-                found.append((int(row), outline, 0))
-        for row, (boxes, edges, planes, _), at in sorted(found, key=lambda item: item[0]):
-            batch, place = batches[owners[row]], places[row]
-            lines = edges[at].copy()
-            lines[:, 2] += batch.margin
-            left, top, right, bottom = boxes[at].tolist()
-            texture = batch.textures[place] if batch.textures is not None else None
-            projected[owners[row]].append(
-                FlatPolygon((left, top, right, bottom), lines, planes[at], batch.colours[place], texture, batch.opacity)
-            )
-    return projected
+            if len(clipped) >= 3:
+                cut.setdefault(len(clipped), []).append((clipped, owners[row], places[row]))
+    for several in cut.values():
+        corners, owners, places = zip(*several, strict=True)
+        groups.append(_outlines(np.stack(corners), np.array(owners), np.array(places), view))
+    return _in_order(batches, groups)
 
 
-def _outlines(cameras: Points, view: View) -> tuple[NDArray[np.int64], NDArray[np.float32], Points, NDArray[np.bool_]]:
-    """Boxes, edge functions, inverse-depth planes and visibility of polygons ``(n, c, 3)`` before the camera."""
+def _in_order(batches: list[Batch], groups: list[_Outlines]) -> FlatPolygons:
+    batch = np.concatenate([np.zeros(0, np.int64), *(group.batch for group in groups)])
+    place = np.concatenate([np.zeros(0, np.int64), *(group.place for group in groups)])
+    order = np.lexsort([place, batch])
+    margins = np.array([each.margin for each in batches], np.float32)
+    edges: list[NDArray[np.float32]] = []
+    for group in groups:
+        group.edges[..., 2] += margins[group.batch][:, None]
+        edges.extend(group.edges)
+    batch, place = batch[order], place[order]
+    starts = np.cumsum([0, *(len(each.corners) for each in batches)])
+    colours = np.concatenate([np.zeros((0, 3), np.float32), *(each.colours for each in batches)])
+    opacities = np.array([each.opacity for each in batches], np.float32)
+    boxes = np.concatenate([np.zeros((0, 4), np.int64), *(group.boxes for group in groups)])
+    planes = np.concatenate([np.zeros((0, 3)), *(group.planes for group in groups)])
+    owners = [batches[index] for index in batch]
+    return FlatPolygons(
+        batch=batch,
+        boxes=boxes[order],
+        edges=[edges[index] for index in order],
+        planes=planes[order],
+        colours=colours[starts[batch] + place],
+        opacities=opacities[batch],
+        textures=[
+            None if owner.textures is None else owner.textures[at]
+            for owner, at in zip(owners, place.tolist(), strict=True)
+        ],
+    )
+
+
+def _outlines(cameras: Points, batch: NDArray[np.int64], place: NDArray[np.int64], view: View) -> _Outlines:
+    """Boxes, edge functions and inverse-depth planes of the polygons ``(n, c, 3)`` before the camera that are seen."""
     homogeneous = cameras @ view.matrix.T
     pixels = homogeneous[..., :2] / homogeneous[..., 2:]
     low = np.floor(pixels.min(axis=1) - 1.0).clip(-1, [view.width, view.height])
     high = np.ceil(pixels.max(axis=1) + 2.0).clip(0, [view.width, view.height])
     boxes = np.concatenate([low.clip(0), high], axis=1).astype(np.int64)
-
     following = np.roll(pixels, -1, axis=1)
-    steps = following - pixels
     areas = np.sum(pixels[..., 0] * following[..., 1] - pixels[..., 1] * following[..., 0], axis=1) / 2
+    # Newell's normal: right for any planar polygon, whatever its first corners
+    ahead = np.roll(cameras, -1, axis=1)
+    normals = np.cross(cameras, ahead).sum(axis=1)
+    distances = np.sum(normals * cameras.mean(axis=1), axis=1)
+    seen = (boxes[:, 2] > boxes[:, 0]) & (boxes[:, 3] > boxes[:, 1]) & (np.abs(areas) > _LEAST_AREA)
+    seen &= np.abs(distances) > 1e-9
+
+    pixels, steps, areas = pixels[seen], (following - pixels)[seen], areas[seen]
     # in units of the width that a pixel has across the edge: 1 along rows and columns, 1.41 along diagonals
     lengths = np.abs(steps).sum(axis=-1)
     turn = np.where(areas < 0, -1.0, 1.0)[:, None] / np.maximum(lengths, 1e-12)
@@ -92,11 +141,5 @@ def _outlines(cameras: Points, view: View) -> tuple[NDArray[np.int64], NDArray[n
     offsets = -np.sum(across * pixels, axis=-1)
     edges = np.concatenate([across, offsets[..., None]], axis=-1)
     edges[lengths < 1e-9] = [0.0, 0.0, 1e4]  # a corner given twice bounds nothing
-
-    # Newell's normal: right for any planar polygon, whatever its first corners
-    normals = np.cross(cameras, np.roll(cameras, -1, axis=1)).sum(axis=1)
-    distances = np.sum(normals * cameras.mean(axis=1), axis=1)
-    seen = (boxes[:, 2] > boxes[:, 0]) & (boxes[:, 3] > boxes[:, 1]) & (np.abs(areas) > 0.15)
-    seen &= np.abs(distances) > 1e-9
-    planes = normals @ np.linalg.inv(view.matrix) / np.where(seen, distances, 1.0)[:, None]
-    return boxes, edges.astype(np.float32), planes, seen
+    planes = normals[seen] @ np.linalg.inv(view.matrix) / distances[seen, None]
+    return _Outlines(batch[seen], place[seen], boxes[seen], edges.astype(np.float32), planes)

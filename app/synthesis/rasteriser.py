@@ -7,17 +7,22 @@ puts it, whatever the resolution; along rows, columns and diagonals, where all p
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from app.synthesis.fragments import Fragments, cover_small
 from app.synthesis.geometry import Drawing, Texture
-from app.synthesis.projection import FlatPolygon, View, project
+from app.synthesis.projection import FlatPolygons, View, project
 
-_TILE_ROWS = 64
-_FLAT_AREA = 120  # px; a smaller surface shows no texture
+_TILE_ROWS = 128
+_FLAT_AREA = 200  # px; a smaller surface shows no texture
+_SMALL_AREA = 900  # px; a smaller surface has one depth in the haze
+_LARGE_AREA = 3000  # px; from here on surfaces are painted row by row, whatever their depth
+_ONE_DEPTH = 1.15  # greatest by smallest inverse depth of a surface that has one depth in the haze
+_MOST = 0.5  # share of a pixel from which on it shows a surface
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,19 +54,86 @@ def rasterise(drawing: Drawing, view: View, background: NDArray[np.float32], haz
     # one plane per colour: numpy's inner loops then run along rows, not over three numbers
     colours = np.ascontiguousarray(np.moveaxis(background, 2, 0))
     surface = np.zeros((view.height, view.width), np.int32)
-    planes = [np.zeros(3)]
-    for batch, polygons in zip(drawing.batches, project(drawing.batches, view), strict=True):
-        if batch.mode == "shadow":
-            _darken(colours, polygons)
-            continue
-        for polygon in polygons:
-            planes.append(polygon.plane)
-            _paint(colours, surface, polygon, len(planes) - 1, view, haze)
-    return Picture(np.ascontiguousarray(np.moveaxis(colours, 0, 2)), surface, np.array(planes))
+    polygons = project(drawing.batches, view)
+    shadow = np.array([batch.mode == "shadow" for batch in drawing.batches], np.bool_)[polygons.batch]
+    haze_shares = _haze_shares(polygons, haze)
+    small = _small_surfaces(polygons, shadow, haze_shares, view.width, haze)
+    lookups = _texture_lookups(polygons.textures, view)
+    flat_colours, flat_surface = colours.reshape(3, -1), surface.reshape(-1)
+    darkened = -1
+    for index, (is_shadow, at) in enumerate(zip(shadow.tolist(), small.places.tolist(), strict=True)):
+        if is_shadow:
+            if polygons.batch[index] != darkened:
+                darkened = int(polygons.batch[index])
+                _darken(colours, [_one(polygons, i) for i in np.flatnonzero(polygons.batch == darkened).tolist()])
+        elif at < 0:
+            _paint(colours, surface, _one(polygons, index), index + 1, lookups[index], haze_shares[index], haze)
+        else:
+            first, last = small.fragments.offsets[at], small.fragments.offsets[at + 1]
+            pixels, cover = small.fragments.pixels[first:last], small.fragments.cover[first:last]
+            target = flat_colours[:, pixels]
+            target += (small.colours[at] - target) * cover
+            flat_colours[:, pixels] = target
+            flat_surface[pixels[cover >= _MOST]] = index + 1
+    planes = np.concatenate([np.zeros((1, 3)), polygons.planes])
+    return Picture(np.ascontiguousarray(np.moveaxis(colours, 0, 2)), surface, planes)
 
 
-def _coverage(polygon: FlatPolygon, x0: int, y0: int, x1: int, y1: int) -> NDArray[np.float32]:
-    """Each pixel's share inside the polygon, float32 ``(y1 - y0, x1 - x0)``."""
+@dataclass(frozen=True, eq=False)
+class _SmallSurfaces:
+    """Those of the P polygons that are small: places ``(P,)`` among them or -1, fragments and colours ``(S, 3, 1)``."""
+
+    places: NDArray[np.int64]
+    fragments: Fragments
+    colours: NDArray[np.float32]
+
+
+def _small_surfaces(
+    polygons: FlatPolygons, shadow: NDArray[np.bool_], haze_shares: NDArray[np.float32], width: int, haze: Haze
+) -> _SmallSurfaces:
+    areas = np.prod(polygons.boxes[:, 2:] - polygons.boxes[:, :2], axis=1)
+    textured = np.array([texture is not None for texture in polygons.textures], np.bool_)
+    largest = np.where(textured, _FLAT_AREA, np.where(np.isnan(haze_shares), _SMALL_AREA, _LARGE_AREA))
+    chosen = np.flatnonzero(~shadow & (areas < largest))
+    places = np.full(len(areas), -1, np.int64)
+    places[chosen] = np.arange(len(chosen))
+    colours, opacities = polygons.colours[chosen], polygons.opacities[chosen]
+    for row, index in enumerate(chosen):
+        texture = polygons.textures[index]
+        if texture is not None:
+            colours[row], opacities[row] = _flattened(colours[row], float(opacities[row]), texture)
+    boxes = polygons.boxes[chosen]
+    colours += haze_shares[chosen, None] * (haze.colour - colours)
+    edges = [polygons.edges[index] for index in chosen]
+    return _SmallSurfaces(places, cover_small(boxes, edges, opacities, width), colours[..., None])
+
+
+@dataclass(frozen=True, eq=False)
+class _Surface:
+    """One surface in the picture: box, edge functions ``(c, 3)``, inverse depth and how it is painted."""
+
+    box: tuple[int, int, int, int]
+    edges: NDArray[np.float32]
+    plane: NDArray[np.float64]
+    colour: NDArray[np.float32]
+    texture: Texture | None
+    opacity: float
+
+
+def _one(polygons: FlatPolygons, index: int) -> _Surface:
+    left, top, right, bottom = polygons.boxes[index].tolist()
+    return _Surface(
+        (left, top, right, bottom),
+        polygons.edges[index],
+        polygons.planes[index],
+        polygons.colours[index],
+        polygons.textures[index],
+        float(polygons.opacities[index]),
+    )
+
+
+def _coverage(polygon: _Surface, x0: int, y0: int, x1: int, y1: int) -> NDArray[np.float32] | None:
+    """Each pixel's share inside the polygon, float32 ``(y1 - y0, x1 - x0)``; nothing if all lie wholly inside."""
     columns = np.arange(x0, x1, dtype=polygon.edges.dtype)
     rows = np.arange(y0, y1, dtype=polygon.edges.dtype)
     along = polygon.edges[:, :1] * columns
@@ -69,7 +141,7 @@ def _coverage(polygon: FlatPolygon, x0: int, y0: int, x1: int, y1: int) -> NDArr
     # an edge that the whole box lies inside of costs nothing
     needed = np.flatnonzero(along.min(axis=1) + down.min(axis=1) < 1.0)
     if not needed.size:
-        return np.ones((y1 - y0, x1 - x0), np.float32)
+        return None
     cover = np.add.outer(down[needed[0]], along[needed[0]])
     for edge in needed[1:]:
         np.minimum(cover, np.add.outer(down[edge], along[edge]), out=cover)
@@ -84,53 +156,71 @@ def _tiles(box: tuple[int, int, int, int]) -> list[tuple[int, int, int, int]]:
 def _paint(
     colours: NDArray[np.float32],
     surface: NDArray[np.int32],
-    polygon: FlatPolygon,
+    polygon: _Surface,
     index: int,
-    view: View,
+    lookup: NDArray[np.float64],
+    haze_share: np.float32,
     haze: Haze,
 ) -> None:
-    textured = polygon.texture is not None
-    if polygon.texture is not None and _area(polygon.box) < _FLAT_AREA:
-        polygon, textured = _flattened(polygon, polygon.texture), False
-    lookup = _texture_lookup(polygon.texture, view) if textured and polygon.texture is not None else None
+    one_depth, air = bool(np.isfinite(haze_share)), haze.colour[:, None, None]
+    tone = polygon.colour[:, None, None].copy()
+    if one_depth:
+        tone += haze_share * (air - tone)
     for x0, y0, x1, y1 in _tiles(polygon.box):
         cover = _coverage(polygon, x0, y0, x1, y1)
-        inside = cover.max(axis=0)
-        filled = np.flatnonzero(inside > 0)
-        if not filled.size:
-            continue
-        if filled.size < 0.7 * len(inside):  # a slanted surface fills little of its box
-            left, right = int(filled[0]), int(filled[-1]) + 1
-            x0, x1, cover = x0 + left, x0 + right, cover[:, left:right]
-        target = colours[:, y0:y1, x0:x1]
-        paint: NDArray[np.float32] = polygon.colour[:, None, None]
-        if polygon.texture is not None and lookup is not None:
+        if cover is not None:
+            filled = np.flatnonzero(cover.max(axis=0) > 0)
+            if not filled.size:
+                continue
+            if filled.size < 0.7 * (x1 - x0):  # a slanted surface fills little of its box
+                left, right = int(filled[0]), int(filled[-1]) + 1
+                x0, x1, cover = x0 + left, x0 + right, cover[:, left:right]
+        paint: NDArray[np.float32] = tone
+        if polygon.texture is not None:
             sampled = _sample_texture(polygon.texture.pixels, lookup, x0, y0, x1, y1)
-            if sampled.ndim == 2:
-                paint = paint * sampled
-            else:
+            if sampled.ndim == 3:
                 planes = np.ascontiguousarray(np.moveaxis(sampled, 2, 0))
-                paint = planes[:3]
-                cover = cover * planes[3]
+                paint, opacity = planes[:3], planes[3]
+                cover = opacity if cover is None else cover * opacity
+                if one_depth:
+                    paint += haze_share * (air - paint)
+            elif one_depth:
+                paint = np.multiply(tone - haze_share * air, sampled, dtype=np.float32)
+                paint += haze_share * air
+            else:
+                paint = tone * sampled
+        if not one_depth:
+            paint = np.multiply(paint - air, _clearness(polygon, haze, x0, y0, x1, y1), dtype=np.float32)
+            paint += air
         if polygon.opacity < 1:
-            cover = cover * np.float32(polygon.opacity)
-        share = _share_of_haze(polygon, haze, x0, y0, x1, y1)
-        change = paint + share * (haze.colour[:, None, None] - paint) - target
-        change *= cover
-        target += change
-        np.copyto(surface[y0:y1, x0:x1], index, where=cover >= 0.5)
+            cover = np.float32(polygon.opacity) * (np.ones((1, 1), np.float32) if cover is None else cover)
+        _lay(colours[:, y0:y1, x0:x1], surface[y0:y1, x0:x1], paint, cover, index)
 
 
-def _area(box: tuple[int, int, int, int]) -> int:
-    return (box[2] - box[0]) * (box[3] - box[1])
+def _lay(
+    target: NDArray[np.float32],
+    surface: NDArray[np.int32],
+    paint: NDArray[np.float32],
+    cover: NDArray[np.float32] | None,
+    index: int,
+) -> None:
+    """Mix paint ``(3, h, w)`` over a part of the picture by its share ``(h, w)`` of each pixel; all of it if none."""
+    if cover is None:
+        target[...] = paint
+        surface[...] = index
+        return
+    change = paint - target
+    change *= cover
+    target += change
+    np.copyto(surface, index, where=cover >= _MOST)
 
 
-def _flattened(polygon: FlatPolygon, texture: Texture) -> FlatPolygon:
-    """A polygon too small for its picture to be seen, in the picture's middle colour."""
+def _flattened(colour: NDArray[np.float32], opacity: float, texture: Texture) -> tuple[NDArray[np.float32], float]:
+    """Colour and opacity of a surface too small for its picture to be seen: those of the picture's middle."""
     middle = texture.pixels[texture.pixels.shape[0] // 2, texture.pixels.shape[1] // 2]
     if texture.pixels.ndim == 2:
-        return replace(polygon, colour=polygon.colour * middle, texture=None)
-    return replace(polygon, colour=middle[:3], opacity=polygon.opacity * float(middle[3]), texture=None)
+        return colour * middle, opacity
+    return middle[:3], opacity * float(middle[3])
 
 
 def _sample_texture(
@@ -143,27 +233,43 @@ def _sample_texture(
     return np.asarray(warped, np.float32)
 
 
-def _share_of_haze(polygon: FlatPolygon, haze: Haze, x0: int, y0: int, x1: int, y1: int) -> NDArray[np.float32]:
-    """Share of the haze's colour in each pixel ``(h, w)``, or in all of them ``(1, 1)`` (Koschmieder 1924)."""
+def _haze_shares(polygons: FlatPolygons, haze: Haze) -> NDArray[np.float32]:
+    """Share of the haze's colour in each of P surfaces that has one depth or is small, else NaN, ``(P,)``.
+
+    Haze takes over exponentially with the depth (Koschmieder 1924).
+    """
+    x, y = polygons.boxes[:, [0, 2, 0, 2]], polygons.boxes[:, [1, 1, 3, 3]]
+    a, b, c = polygons.planes.T[..., None]
+    inverse = a * x + b * y + c
+    sizes = (polygons.boxes[:, 2] - polygons.boxes[:, 0]) * (polygons.boxes[:, 3] - polygons.boxes[:, 1])
+    share = 1 - np.exp(-1 / (np.maximum(inverse.mean(axis=1), 1e-4) * haze.distance))
+    one_depth = (sizes < _SMALL_AREA) | (inverse.max(axis=1) < _ONE_DEPTH * inverse.min(axis=1))
+    return np.where(one_depth, share, np.nan).astype(np.float32)
+
+
+def _clearness(polygon: _Surface, haze: Haze, x0: int, y0: int, x1: int, y1: int) -> NDArray[np.float32]:
+    """What haze leaves of the colour in each pixel ``(h, w)`` of a surface that reaches into the distance."""
     a, b, c = polygon.plane
-    corners = np.array([a * x + b * y + c for x in (x0, x1 - 1) for y in (y0, y1 - 1)])
-    if (x1 - x0) * (y1 - y0) < 900 or corners.max() < 1.15 * corners.min():
-        depth = 1 / max(float(corners.mean()), 1e-4)
-        return np.array([[1 - np.exp(-depth / haze.distance)]], np.float32)
     columns = np.arange(x0, x1, dtype=np.float32) * np.float32(a * haze.distance)
     rows = np.arange(y0, y1, dtype=np.float32) * np.float32(b * haze.distance) + np.float32(c * haze.distance)
-    inverse = np.maximum(np.add.outer(rows, columns), np.float32(1e-3))
-    return 1 - np.exp(-1 / inverse)
+    inverse = np.add.outer(rows, columns)
+    np.maximum(inverse, np.float32(1e-3), out=inverse)
+    np.divide(np.float32(-1), inverse, out=inverse)
+    return np.exp(inverse, out=inverse)
 
 
-def _texture_lookup(texture: Texture, view: View) -> NDArray[np.float64]:
-    """The homography from picture positions to texture positions, float64 ``(3, 3)``."""
-    rotation = view.pose.rotation
-    axes = np.stack([rotation @ texture.across, rotation @ texture.down, view.pose.to_camera(texture.origin)], axis=1)
-    return np.asarray(np.linalg.inv(view.matrix @ axes), np.float64)
+def _texture_lookups(textures: list[Texture | None], view: View) -> NDArray[np.float64]:
+    """The homographies from picture positions to texture positions, float64 ``(P, 3, 3)``; NaN without a texture."""
+    lookups = np.full((len(textures), 3, 3), np.nan)
+    there = [(index, texture) for index, texture in enumerate(textures) if texture is not None]
+    if there:
+        rotation = view.matrix @ view.pose.rotation
+        axes = np.array([(each.across, each.down, each.origin - view.pose.position) for _, each in there])
+        lookups[[index for index, _ in there]] = np.linalg.inv(np.swapaxes(axes @ rotation.T, 1, 2))
+    return lookups
 
 
-def _darken(colours: NDArray[np.float32], polygons: list[FlatPolygon]) -> None:
+def _darken(colours: NDArray[np.float32], polygons: list[_Surface]) -> None:
     """Multiply the union of the polygons by their colour, so that where shadows overlap it isn't darker."""
     if not polygons:
         return
@@ -173,8 +279,9 @@ def _darken(colours: NDArray[np.float32], polygons: list[FlatPolygon]) -> None:
     mask = np.zeros((bottom - top, right - left), np.float32)
     for polygon in polygons:
         for x0, y0, x1, y1 in _tiles(polygon.box):
+            cover = _coverage(polygon, x0, y0, x1, y1)
             # shares are added, so that shadows which meet leave no seam
-            mask[y0 - top : y1 - top, x0 - left : x1 - left] += _coverage(polygon, x0, y0, x1, y1)
+            mask[y0 - top : y1 - top, x0 - left : x1 - left] += 1.0 if cover is None else cover
     rows = np.flatnonzero(mask.any(axis=1))
     if rows.size:
         first, last = int(rows[0]), int(rows[-1]) + 1

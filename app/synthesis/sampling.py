@@ -11,6 +11,7 @@ from app.synthesis.projection import NEAR, View
 from app.synthesis.sensor import LensMap
 
 _NODES = 33
+STEP = 1.0  # px of the photo from sample to sample
 _RIM = 2.0  # px of the ideal picture in which nothing is asked
 
 
@@ -49,7 +50,7 @@ def sample_edges(
     rays_a, rays_b, depth_a, depth_b, arcs = (values[long] for values in (rays_a, rays_b, depth_a, depth_b, arcs))
     owners = owners[long]
     total = arcs[:, -1]
-    counts = np.maximum(np.rint(total).astype(np.int64), 1) + 1
+    counts = np.maximum(np.rint(total / STEP).astype(np.int64), 1) + 1
     row = np.repeat(np.arange(len(counts)), counts)
     position = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     wanted = position / (counts[row] - 1) * total[row]

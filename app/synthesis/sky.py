@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.synthesis.light import Light, rgb
+from app.synthesis.noise import layered_noise, smooth_noise
 from app.synthesis.projection import View
-from app.synthesis.textures import layered_noise, smooth_noise
 
 _COARSE = 4
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
+from app.synthesis.clutter import Spot, draw_clutter
 from app.synthesis.facades import House, draw_house
 from app.synthesis.furniture import (
     draw_bollard,
@@ -19,7 +21,9 @@ from app.synthesis.furniture import (
     post,
 )
 from app.synthesis.geometry import Drawing, Points
+from app.synthesis.guard_rails import GuardRail, draw_rail_piece, outline_rail, rail_places
 from app.synthesis.light import Light, rgb
+from app.synthesis.people import draw_person
 from app.synthesis.road import KERB, Road, draw_pavements, draw_road, draw_shadows
 from app.synthesis.textures import Materials
 from app.synthesis.vegetation import draw_bush, draw_tree, draw_tree_shadow
@@ -35,9 +39,11 @@ class Thing:
     Attributes:
         z: Where it stands, m.
         x: Likewise, to the right.
-        kind: "lamp", "sign", "signal", "bollard", "cabinet", "tree", "bush" or "wire".
+        kind: "lamp", "sign", "signal", "bollard", "cabinet", "tree", "bush", "person" or "wire".
         size: Height or length in m, by kind.
         seed: Seed of what varies about it.
+        along: Where it stands along the street's axis, m.
+        side: Of the road: -1 left, 1 right, 0 above it.
     """
 
     z: float
@@ -45,6 +51,8 @@ class Thing:
     kind: str
     size: float
     seed: int
+    along: float
+    side: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +66,8 @@ class Street:
     houses: tuple[House, ...]
     cars: tuple[Car, ...]
     things: tuple[Thing, ...]
+    rails: tuple[GuardRail, ...]
+    clutter: tuple[Spot, ...]
     lane: float
 
 
@@ -72,23 +82,33 @@ def draw_street(street: Street, eye: Points) -> Drawing:
     ]
     trees = [thing for thing in street.things if thing.kind == "tree"]
     draw_road(drawing, road, light, street.materials)
+    draw_clutter(drawing, street.clutter, road, light)
     draw_shadows(drawing, casters, light, 0.0, road)
     draw_pavements(drawing, road, light, street.materials)
     draw_shadows(drawing, casters, light, KERB, road)
     for tree in trees:
         draw_tree_shadow(drawing, tree.x, tree.z, tree.size, light, street.materials)
     for house in sorted(street.houses, key=lambda house: -_nearest(house, eye)):
-        if house.panel.locate(eye)[2] > 0 and house.panel.origin[2] + house.width > eye[2] - 2:
+        if house.panel.locate(eye)[2] > 0 and house.panel.point(house.width, 0)[2] > eye[2] - 2:
             draw_house(drawing, house, eye=eye, light=light, materials=street.materials)
 
     things: list[tuple[float, Callable[[Drawing], None]]] = [
-        (car.z, partial(draw_car, car=car, eye=eye, light=light)) for car in street.cars if _before(car, eye)
+        (_away(car.x, car.z, eye), partial(draw_car, car=car, eye=eye, light=light))
+        for car in street.cars
+        if _before(car, eye)
     ]
     things += [
-        (thing.z, partial(_draw_thing, thing=thing, street=street, eye=eye))
+        (_away(thing.x, thing.z, eye), partial(_draw_thing, thing=thing, street=street, eye=eye))
         for thing in street.things
         if thing.z > eye[2] + _NOWHERE
     ]
+    for rail in street.rails:
+        outline_rail(drawing, rail, road.bend)
+        for z0, z1 in pairwise(rail_places(rail, road.bend).tolist()):
+            if z0 > eye[2] + _NOWHERE:
+                piece = partial(draw_rail_piece, rail=rail, bend=road.bend, z0=z0, z1=z1, light=light)
+                x, _, z = road.bend.place(rail.x, (z0 + z1) / 2).tolist()
+                things.append((_away(x, z, eye), piece))
     for _, draw in sorted(things, key=lambda item: -item[0]):
         draw(drawing)
     return drawing
@@ -99,16 +119,21 @@ def _before(car: Car, eye: Points) -> bool:
     return car.z - eye[2] > max(8.0 - 0.7 * abs(car.x - eye[0]), 4.0)
 
 
+def _away(x: float, z: float, eye: Points) -> float:
+    """How far away something stands, m: the nearer is painted over the farther."""
+    return float(np.hypot(x - eye[0], z - eye[2]))
+
+
 def _nearest(house: House, eye: Points) -> float:
-    """Sorting key of houses: those across the end of the street come first."""
-    return float(house.panel.origin[2] - eye[2] + (1000 if house.panel.along[0] else 0))
+    """Sorting key of houses: how far their fronts' middles are."""
+    return float(np.linalg.norm(house.panel.point(house.width / 2, 0) - eye))
 
 
 def _draw_thing(drawing: Drawing, thing: Thing, street: Street, eye: Points) -> None:
     light = street.light
     rng = np.random.default_rng(thing.seed)
     if thing.kind == "lamp":
-        draw_lamp(drawing, thing.x, thing.z, light)
+        draw_lamp(drawing, thing.x, thing.z, -thing.side, light)
     elif thing.kind == "sign":
         draw_sign(drawing, thing.x, thing.z, light, rng)
     elif thing.kind == "signal":
@@ -123,9 +148,15 @@ def _draw_thing(drawing: Drawing, thing: Thing, street: Street, eye: Points) -> 
         draw_tree(drawing, thing.x, thing.z, thing.size, light, street.materials, thing.seed)
     elif thing.kind == "bush":
         draw_bush(drawing, thing.x, thing.z, thing.size, street.materials, thing.seed)
+    elif thing.kind == "person":
+        on_pavement = abs(thing.side) and not _on_crossing(thing, street.road)
+        draw_person(drawing, thing.x, thing.z, thing.size, KERB if on_pavement else 0.0, light, rng)
     else:
-        left = np.array([-street.road.wall, -thing.size, thing.z])
-        right = np.array(
-            [street.road.wall, -thing.size - float(rng.uniform(-0.6, 0.6)), thing.z + float(rng.uniform(-6, 6))]
-        )
+        bend, wall = street.road.bend, street.road.wall
+        left = bend.place(-wall, thing.along, thing.size)
+        right = bend.place(wall, thing.along + rng.uniform(-6, 6), thing.size + rng.uniform(-0.6, 0.6))
         draw_wire(drawing, left, right, float(rng.uniform(0.25, 0.8)), light)
+
+
+def _on_crossing(thing: Thing, road: Road) -> bool:
+    return bool(np.linalg.norm(road.bend.place(0.0, thing.along)[[0, 2]] - [thing.x, thing.z]) < road.half_width)

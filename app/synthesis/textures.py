@@ -6,39 +6,10 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from app.synthesis.light import Colour, Light, rgb
-
-Pixels = NDArray[np.float32]
-
-
-def smooth_noise(rng: np.random.Generator, height: int, width: int, grain: float) -> Pixels:
-    """Noise of mean 0 and sd 1 whose features are about `grain` px wide, float32 ``(height, width)``."""
-    rows, columns = int(np.ceil(height / grain)) + 3, int(np.ceil(width / grain)) + 3
-    coarse = rng.standard_normal((rows, columns), dtype=np.float32)
-    fine = cv2.resize(coarse, None, fx=grain, fy=grain, interpolation=cv2.INTER_CUBIC)[:height, :width]
-    return (fine - fine.mean()) / max(float(fine.std()), 1e-6)
-
-
-def layered_noise(rng: np.random.Generator, height: int, width: int, grain: float, layers: int) -> Pixels:
-    """A sum of noises, each of half the grain and 0.6 times the strength, mean 0 and sd about 1."""
-    total = np.zeros((height, width), np.float32)
-    weights = 0.6 ** np.arange(layers)
-    for layer, weight in enumerate(weights):
-        total += np.float32(weight) * smooth_noise(rng, height, width, max(grain / 2**layer, 1.0))
-    return total / np.float32(np.sqrt((weights**2).sum()))
-
-
-def plaster(rng: np.random.Generator, height: float, width: float, detail: float, dirt: float = 1.0) -> Pixels:
-    """Factors for a rendered wall of height x width m at `detail` px per m: blotches, rain streaks, a damp foot."""
-    rows, columns = max(int(height * detail), 8), max(int(width * detail), 8)
-    wall = 0.022 * layered_noise(rng, rows, columns, detail * 1.6, 5)
-    streaks = cv2.resize(smooth_noise(rng, max(rows // 24, 2), columns, 2.0), (columns, rows))
-    wall += 0.014 * dirt * streaks
-    foot = np.linspace(height, 0, rows, dtype=np.float32)[:, None]
-    wall -= dirt * (0.16 * np.exp(-foot / 0.7) + 0.06 * np.exp(-foot / 3.0))
-    return (1.03 + wall).astype(np.float32)
+from app.synthesis.noise import Pixels, layered_noise
+from app.synthesis.walls import Walls, make_walls
 
 
 def asphalt(rng: np.random.Generator, size: int) -> Pixels:
@@ -150,6 +121,7 @@ class Materials:
 
     road: Pixels
     pavement: Pixels
+    walls: Walls
     panes: tuple[Pixels, ...]
     crowns: tuple[Pixels, ...]
     bushes: tuple[Pixels, ...]
@@ -162,6 +134,7 @@ def make_materials(rng: np.random.Generator, light: Light) -> Materials:
     return Materials(
         road=asphalt(rng, 768),
         pavement=paving(rng, 512, 14),
+        walls=make_walls(rng),
         panes=tuple(panes(rng, light, 10)),
         crowns=tuple(foliage(rng, light, green) for green in greens[:3]),
         bushes=tuple(foliage(rng, light, green * 0.9, size=192) for green in greens[3:]),

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from app.synthesis.geometry import Drawing, Points
+from app.synthesis.geometry import Drawing, Points, turned_right
 from app.synthesis.light import Colour, Light, rgb
 from app.synthesis.vegetation import dark_spot
 
@@ -41,17 +41,30 @@ _SMOOTH_WITHIN = 22.0  # m; farther cars are made of fewer pieces
 
 @dataclass(frozen=True, eq=False)
 class Car:
-    """A car: its middle on the ground (x, z in m), whether it drives away from the camera, body and paint."""
+    """A car: its middle on the ground (x, z in m), whether it drives away from the camera, body and paint.
+
+    It is turned by `heading` rad to the right.
+    """
 
     x: float
     z: float
     away: bool
     body: str
     paint: Colour
+    heading: float = 0.0
 
 
 def draw_car(drawing: Drawing, car: Car, *, eye: Points, light: Light) -> None:
     """Draw a car as seen from `eye`."""
+    middle = np.array([car.x, 0.0, car.z])
+    back = turned_right(-car.heading)
+    straight = Drawing()
+    turned_light = replace(light, to_sun=back @ light.to_sun)
+    _draw_straight(straight, car, back @ (eye - middle) + middle, turned_light)
+    drawing.extend(straight, car.heading, middle)
+
+
+def _draw_straight(drawing: Drawing, car: Car, eye: Points, light: Light) -> None:
     near = float(np.linalg.norm(eye[[0, 2]] - [car.x, car.z])) < _SMOOTH_WITHIN
     fineness = 6 if near else 2
     along, heights, glass = _outline(car.body, fineness)
@@ -79,7 +92,10 @@ def draw_car(drawing: Drawing, car: Car, *, eye: Points, light: Light) -> None:
     order = order[outward[order]]
     drawing.paint(quads[order], _tones(normals, pieces, car.paint, light)[order], margin=0.5)
     _draw_lights(drawing, car, world, heights, eye, light)
-    drawing.curve(world[:, 0 if side < 0 else -1], "car body")
+    for rim in (0, -1):
+        drawing.curve(world[:, rim], "car body")
+    for row in np.flatnonzero(np.diff(glass.astype(int))) + 1:
+        drawing.curve(world[row], "car body")
 
 
 def _outline(body: str, fineness: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -166,10 +182,12 @@ def _draw_flank(
     deep = np.minimum(cabin[:-1], cabin[1:]) > 0.16
     pillar = np.abs(z[:-1] + 0.12) < 0.05
     drawing.paint(strips(waist + 0.02, roof)[deep & ~pillar], pane_tone, margin=0.4)
-    _draw_wheels(drawing, side, flip, place, length, light)
+    _draw_wheels(drawing, side, flip, place, length, light, near)
 
 
-def _draw_wheels(drawing: Drawing, side: float, flip: Points, place: Points, length: float, light: Light) -> None:
+def _draw_wheels(
+    drawing: Drawing, side: float, flip: Points, place: Points, length: float, light: Light, near: bool
+) -> None:
     turn = np.linspace(0, 2 * np.pi, 28, endpoint=False)
     hub = light.shade(rgb(158, 160, 164), (side, 0, 0), sunlit=False)
     for z in (-length / 2 + 0.82, length / 2 - 0.84):
@@ -178,7 +196,8 @@ def _draw_wheels(drawing: Drawing, side: float, flip: Points, place: Points, len
                 [np.full(28, side * out), -0.315 + radius * np.sin(turn), z + radius * np.cos(turn)], axis=1
             )
             drawing.paint(disc * flip + place, tone)
-        for spoke in np.arange(5) * 2 * np.pi / 5:
+            drawing.curve(np.concatenate([disc, disc[:1]]) * flip + place, "wheel")
+        for spoke in np.arange(5 * near) * 2 * np.pi / 5:
             hole = np.stack([np.cos(turn), np.sin(turn)], axis=1) * 0.04 + 0.12 * np.array(
                 [np.cos(spoke), np.sin(spoke)]
             )

@@ -1,4 +1,4 @@
-"""Which samples of an edge can be seen: not hidden, and with a step of grey across."""
+"""Which samples of an edge can be seen: not hidden, and with how high a step of grey across."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 from app.synthesis.rasteriser import Picture
 from app.vision.image_reading import read_image
 
-LEAST_STEP = 8.0  # grey levels
+CLEAR_STEP = 8.0  # grey levels
+FAINT_STEP = 4.0
+REACH = 3  # samples to both sides over which a step is averaged
 _ASIDE = 1.5  # px of the ideal picture
 _SAME_DEPTH = 0.012  # relative
 _SHARE_OF_STEP = 0.75  # of a blurred step that lies within 0.75 px of it
@@ -46,13 +48,13 @@ def unhidden(
     return clear & owned
 
 
-def contrasting(
+def contrast(
     grey: NDArray[np.float32],
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
     owners: NDArray[np.int64],
-) -> NDArray[np.bool_]:
-    """Which samples have a step of at least `LEAST_STEP` across, and the steepest place at the edge itself.
+) -> NDArray[np.float32]:
+    """How high the step across each sample is, grey levels; 0 where the steepest place isn't at the edge itself.
 
     An edge beside a stronger one, or one side of something thinner than the blur, has its steepest place elsewhere:
     no detector could find it where it truly is, so it isn't a label.
@@ -69,11 +71,11 @@ def contrasting(
     step = values[:, 6] - values[:, 1]
     sign = np.sign(step)
     here, before, behind = (sign * (values[:, high] - values[:, low]) for low, high in ((2, 5), (0, 3), (4, 7)))
-    strong = np.abs(step) >= LEAST_STEP * _SHARE_OF_STEP
-    return strong & (here > 0) & (here >= _RIVAL * np.maximum(before, behind))
+    steepest = (here > 0) & (here >= _RIVAL * np.maximum(before, behind))
+    return np.where(steepest, np.abs(step) / _SHARE_OF_STEP, 0).astype(np.float32)
 
 
-def _smooth_along(values: NDArray[np.float32], owners: NDArray[np.int64], reach: int = 3) -> NDArray[np.float32]:
+def _smooth_along(values: NDArray[np.float32], owners: NDArray[np.int64], reach: int = REACH) -> NDArray[np.float32]:
     """Mean over up to `reach` samples on both sides along the same edge: texture is not contrast."""
     total = np.zeros_like(values)
     count = np.zeros((len(values), 1), np.float32)

@@ -12,6 +12,7 @@ from app.synthesis.light import Colour, Light
 from app.synthesis.textures import Materials, fading_shadow
 
 _SOFT_SHADOW = fading_shadow(0.42)
+_GLASS_BEYOND = 55.0  # m; farther windows are drawn as panes alone
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +46,10 @@ def draw_windows(
     boxes = np.atleast_2d(np.asarray(boxes, float))
     choice = rng.integers(len(materials.panes), size=len(boxes) * style.columns * style.rows)
     if not len(boxes):
+        return
+    if not detailed and np.linalg.norm(panel.point(*boxes[0, :2]) - eye) > _GLASS_BEYOND:
+        glass = np.array([materials.panes[int(pick)][20, 12, :3] for pick in choice[: len(boxes)]])
+        drawing.paint(panel.rectangles(boxes), glass, kind="window opening")
         return
     facade_light = light.shade(style.trim, panel.normal)
     if style.shutters is not None and detailed:

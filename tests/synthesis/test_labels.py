@@ -79,6 +79,25 @@ def test_an_edge_needs_contrast(plain_map: LensMap, grey: int, count: int) -> No
     assert len(look(drawing, plain_map).segments) == count
 
 
+@pytest.mark.parametrize(("grey", "clear"), [(126, False), (136, True)])
+def test_an_edge_of_little_contrast_is_faint(plain_map: LensMap, grey: int, clear: bool) -> None:
+    drawing = wall()
+    drawing.paint(rectangle(-1, -1, 1, 1), (grey, grey, grey), kind="sign")
+    assert look(drawing, plain_map).clear.tolist() == [clear] * 4
+
+
+def test_an_edge_that_is_clear_along_half_is_one_label(plain_map: LensMap) -> None:
+    def tops(share: float) -> list[bool]:
+        drawing = wall()
+        drawing.paint(rectangle(-1, -1, 1, 1), (126, 126, 126), kind="sign")
+        drawing.paint(rectangle(-1, -2, -1 + 2 * share, -1), (60, 60, 60))
+        labels = look(drawing, plain_map)
+        return labels.clear[labels.line_ids == 0].tolist()
+
+    assert tops(0.7) == [True]
+    assert tops(0.3) == [False]
+
+
 def test_edges_of_little_length_are_left_out(plain_map: LensMap) -> None:
     drawing = wall()
     drawing.paint(rectangle(-0.08, -1, 0.08, 1), (200, 200, 200), kind="sign")  # 16 x 200 px
@@ -138,6 +157,18 @@ def test_a_curve_is_a_distractor_with_its_reason(plain_map: LensMap) -> None:
     radii = np.linalg.norm(curves.segments.points - [200, 150], axis=1)
     assert np.abs(radii - 80).max() < 0.5
     assert curves.segments.lengths()[0] == pytest.approx(2 * np.pi * 80, rel=0.02)
+
+
+def test_a_curve_along_a_label_is_no_distractor(plain_map: LensMap) -> None:
+    drawing = wall()
+    drawing.paint(rectangle(-1, -1, 1, 1), (220, 220, 220), kind="sign")
+    drawing.curve(rectangle(-1, -1, 1, 1)[:2], "shadow")
+    view = plain_map.view(Pose(np.zeros(3)))
+    picture = rasterise(drawing, view, np.full((view.height, view.width, 3), 60, np.float32), Haze(rgb(0, 0, 0), 1e9))
+    photo = expose(picture.colours, plain_map, QUIET)
+    labels = label_edges(drawing, view, plain_map, picture, photo)
+    assert len(label_curves(drawing, view, plain_map, picture, photo).segments) == 1
+    assert len(label_curves(drawing, view, plain_map, picture, photo, labels).segments) == 0
 
 
 def test_an_empty_street_has_no_labels(plain_map: LensMap) -> None:

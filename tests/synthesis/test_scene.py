@@ -8,9 +8,14 @@ import pytest
 from scipy.ndimage import map_coordinates
 
 from app.errors import InvalidInput
-from app.synthesis import Lens, SyntheticScene, make_lens, synthesize_dataset, synthesize_scene
+from app.synthesis import IDEAL_SENSOR, Lens, SyntheticScene, make_lens, synthesize_dataset, synthesize_scene
+from app.synthesis.distractors import REASON_OF
 from app.synthesis.sampling import across
+from app.verdicts import REASONS
 from app.vision.segments import Segments
+
+FIELDS = [[89.13, 95.26, 141.76, 161.09], [79.73, 79.05, 93.41, 118.76], [111.86, 108.32, 115.15, 99.87]]
+LABELS, LABELLED = 66, 3408.8
 
 
 def edge_offsets(scene: SyntheticScene, segments: Segments) -> tuple[np.ndarray, np.ndarray]:
@@ -43,7 +48,7 @@ def deviations_from_straight(lens: Lens, segments: Segments) -> np.ndarray:
 
 def test_labels_lie_on_the_edges_of_the_image(scene: SyntheticScene) -> None:
     offsets, polarity = edge_offsets(scene, scene.labels)
-    assert np.median(np.abs(offsets)) < 0.12  # with the texture's share
+    assert np.median(np.abs(offsets)) < 0.15  # with the share of the walls' texture
     assert abs(np.median(offsets)) < 0.03
     assert abs(np.median(offsets * polarity)) < 0.03  # neither fat nor thin
 
@@ -63,9 +68,9 @@ def test_labels_are_straight_after_undistortion_and_curved_before(scene: Synthet
     assert deviations_from_straight(pinhole, scene.labels).max() > 1.0
 
 
-def test_distractors_are_not_straight(scene: SyntheticScene, barrel: Lens) -> None:
-    assert len(scene.distractors) == len(scene.reasons) > 3
-    long = scene.distractors.lengths() > 60
+def test_distractors_are_not_straight_but_for_shadows(scene: SyntheticScene, barrel: Lens) -> None:
+    assert len(scene.distractors) == len(scene.reasons) == len(scene.distractor_kinds) > 3
+    long = (scene.distractors.lengths() > 60) & (np.array(scene.distractor_kinds) != "shadow")
     assert long.any()
     deviations = deviations_from_straight(barrel, scene.distractors.select(long))
     assert deviations.min() > 0.05  # five times what the labels may have
@@ -83,7 +88,50 @@ def test_labels_are_sampled_about_every_pixel(scene: SyntheticScene) -> None:
 def test_labels_are_many_and_of_many_kinds(scene: SyntheticScene) -> None:
     assert len(scene.labels) == len(scene.line_ids) == len(scene.kinds) > 100
     assert (scene.labels.extents() >= 100).sum() > 10
-    assert {"kerb", "pole", "window pane", "shadow", "lane marking", "cornice"} <= set(scene.kinds)
+    assert {"kerb", "pole", "window pane", "lane marking", "cornice"} <= set(scene.kinds)
+
+
+def test_reasons_are_those_of_reviewers(scene: SyntheticScene) -> None:
+    assert set(REASON_OF.values()) <= set(REASONS)
+    assert scene.reasons == tuple(REASON_OF[kind] for kind in scene.distractor_kinds)
+    assert {"shadow", "curved"} <= set(scene.reasons)
+
+
+def test_no_distractor_lies_on_a_label(scene: SyntheticScene) -> None:
+    place = np.zeros(scene.image.shape[:2], bool)
+    labels = np.rint(scene.labels.points).astype(int)
+    place[labels[:, 1], labels[:, 0]] = True
+    on_label = [
+        place[points[:, 1], points[:, 0]].mean() for points in map(_rounded, scene.distractors) if len(points) > 40
+    ]
+    assert max(on_label) < 0.3  # they may cross
+
+
+def _rounded(segment: np.ndarray) -> np.ndarray:
+    return np.rint(segment).astype(int)
+
+
+def test_hardly_visible_edges_are_not_labels(scene: SyntheticScene) -> None:
+    assert 0 < len(scene.ambiguous) == len(scene.ambiguous_ids) == len(scene.ambiguous_kinds) < len(scene.labels)
+    grey = cv2.cvtColor(scene.image, cv2.COLOR_BGR2GRAY).astype(np.float64)
+
+    def step(segments: Segments) -> float:
+        points = segments.points.astype(np.float64)
+        aside = 2.0 * across(points, segments.segment_of_point)
+        sides = [map_coordinates(grey, (points + aside * sign)[:, ::-1].T, order=1) for sign in (-1, 1)]
+        return float(np.median(np.abs(sides[0] - sides[1])))
+
+    assert step(scene.ambiguous) < 15 < step(scene.labels)
+
+
+def test_a_seed_gives_one_scene_on_every_machine() -> None:
+    """Mean grey of a grid of 4 x 3 fields: other processors and versions of OpenCV may round differently."""
+    scene = synthesize_scene(12, width=320, height=240, sensor=IDEAL_SENSOR)
+    grey = cv2.cvtColor(scene.image, cv2.COLOR_BGR2GRAY).astype(np.float64)
+    fields = grey.reshape(3, 80, 4, 80).mean(axis=(1, 3))
+    assert fields == pytest.approx(np.array(FIELDS), abs=0.5)
+    assert len(scene.labels) == pytest.approx(LABELS, abs=1)
+    assert scene.labels.lengths().sum() == pytest.approx(LABELLED, rel=0.01)
 
 
 def test_an_edge_behind_something_has_fragments(scene: SyntheticScene) -> None:
