@@ -18,7 +18,7 @@ from app.calibration import opencv_direction
 from app.calibration.inversion import MapPoints, invert
 from app.errors import InvalidInput
 from app.vision import brown, division
-from app.vision.brown import MINIMUM_DETERMINANT
+from app.vision.brown import MINIMUM_DETERMINANT, Mapped
 from app.vision.frame import center_of, frame_grid, half_diagonal
 from app.vision.lens_fields import numbers_from, size_from
 
@@ -34,18 +34,36 @@ class LensFamily(NamedTuple):
         names: Of the parameters, in order; the last two are the centre's offset from the image centre.
         map_points: Correction with its Jacobian, in half diagonals.
         map_derivatives: Derivatives of the correction by the parameters.
+        derivatives_from: Likewise, given the points that `map_points` found; a model may save work by them.
     """
 
     names: tuple[str, ...]
     map_points: MapPoints
     map_derivatives: Callable[[Array, Array, Array], tuple[Array, Array]]
+    derivatives_from: Callable[[Array, Array, Array, Mapped], tuple[Array, Array]]
 
 
 BROWN_NAMES = ("k1", "k2", "k3", "p1", "p2", "cx", "cy")
+
+
+def _brown_derivatives(parameters: Array, x: Array, y: Array, mapped: Mapped) -> tuple[Array, Array]:
+    del mapped
+    return brown.map_derivatives(parameters, x, y)
+
+
+def _division_derivatives(parameters: Array, x: Array, y: Array, mapped: Mapped) -> tuple[Array, Array]:
+    del mapped
+    return division.map_derivatives(parameters, x, y)
+
+
 FAMILIES: Mapping[Family, LensFamily] = {
-    "brown": LensFamily(BROWN_NAMES, brown.map_points, brown.map_derivatives),
-    "opencv": LensFamily(BROWN_NAMES, opencv_direction.map_points, opencv_direction.map_derivatives),
-    "division": LensFamily(("k1", "k2", "k3", "cx", "cy"), division.map_points, division.map_derivatives),
+    "brown": LensFamily(BROWN_NAMES, brown.map_points, brown.map_derivatives, _brown_derivatives),
+    "opencv": LensFamily(
+        BROWN_NAMES, opencv_direction.map_points, opencv_direction.map_derivatives, opencv_direction.derivatives_from
+    ),
+    "division": LensFamily(
+        ("k1", "k2", "k3", "cx", "cy"), division.map_points, division.map_derivatives, _division_derivatives
+    ),
 }
 
 
@@ -110,14 +128,17 @@ class CameraLens:
         x, y = self._normalised(points)
         if self.family == "opencv":
             mapped = brown.map_points(np.asarray(self.parameters), x, y)
-            return self._in_px(mapped.x, mapped.y)
+            reached = opencv_direction.before_fold(np.asarray(self.parameters), x, y)
+            return self._in_px(np.where(reached, mapped.x, np.nan), np.where(reached, mapped.y, np.nan))
         return self._in_px(*invert(FAMILIES[self.family].map_points, np.asarray(self.parameters), x, y))
 
     def is_invertible(self) -> bool:
         """Return whether the correction is one-to-one, with a margin, on the whole frame."""
-        jacobian = self.jacobian(frame_grid(self.width, self.height, 65))
-        with np.errstate(invalid="ignore"):
-            proper = (np.linalg.det(jacobian) > MINIMUM_DETERMINANT) & (np.trace(jacobian, axis1=1, axis2=2) > 0)
+        grid = frame_grid(self.width, self.height, 49)
+        mapped = FAMILIES[self.family].map_points(np.asarray(self.parameters), *self._normalised(grid))
+        determinant = mapped.xx * mapped.yy - mapped.xy**2
+        # the trace tells a reflection in both axes from a proper map; a comparison with NaN is false
+        proper = (determinant > MINIMUM_DETERMINANT) & (mapped.xx + mapped.yy > 0)
         return bool(proper.all())
 
     def as_dict(self) -> dict[str, Any]:
@@ -143,9 +164,7 @@ class CameraLens:
         if family not in FAMILY_NAMES:
             raise InvalidInput(f"unknown model {family!r:.40}", where="lens.family", expected=", ".join(FAMILY_NAMES))
         width, height = (size_from(fields, name) for name in ("width", "height"))
-        return cls(
-            family, width, height, tuple(numbers_from(fields, "parameters", len(FAMILIES[family].names)))
-        )
+        return cls(family, width, height, tuple(numbers_from(fields, "parameters", len(FAMILIES[family].names))))
 
     def _normalised(self, points: ArrayLike) -> tuple[Array, Array]:
         offset = np.asarray(points, np.float64).reshape(-1, 2) - center_of(self.width, self.height)

@@ -7,14 +7,13 @@ corrected frame is seen. What is measured on the view can be carried back, since
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.errors import InvalidInput
-from app.vision.brown import Brown
 from app.vision.frame import frame_grid
 
 Array = NDArray[np.float64]
@@ -27,6 +26,32 @@ SMALLEST, LARGEST = 0.4, 2.5
 """Scales of the view; a strong lens sends the corners so far that the middle could no longer be seen."""
 
 
+class InvertibleLens(Protocol):
+    """A lens for images of one size, in both directions: ``Brown``, or a calibration's ``CameraLens``."""
+
+    @property
+    def width(self) -> int:
+        """Image width in px."""
+        ...
+
+    @property
+    def height(self) -> int:
+        """Image height in px."""
+        ...
+
+    def undistort(self, points: ArrayLike) -> Array:
+        """Map measured points ``(N, 2)`` in px to corrected ones."""
+        ...
+
+    def distort(self, points: ArrayLike) -> Array:
+        """Map corrected points ``(N, 2)`` in px to measured ones; NaN where there is none."""
+        ...
+
+    def is_invertible(self) -> bool:
+        """Whether the correction is one-to-one on the whole frame."""
+        ...
+
+
 @dataclass(frozen=True)
 class UndistortedView:
     """The corrected image, scaled and shifted into the frame.
@@ -37,7 +62,7 @@ class UndistortedView:
         offset: Place of the corrected image's origin in the view, px.
     """
 
-    lens: Brown
+    lens: InvertibleLens
     scale: float
     offset: tuple[float, float]
 
@@ -88,7 +113,7 @@ class UndistortedView:
         return np.ascontiguousarray(full[:, :, 0], np.float32), np.ascontiguousarray(full[:, :, 1], np.float32)
 
 
-def undistorted_view(lens: Brown) -> UndistortedView:
+def undistorted_view(lens: InvertibleLens) -> UndistortedView:
     """Return the view that shows the whole corrected frame, as large as it fits.
 
     Args:
