@@ -6,6 +6,7 @@
             InvalidSegments         points or offsets that make no segments             422
             InvalidFile             a label, prediction or archive file                 422
             NoEdge                  nothing in the image to trace                       422
+            CannotExport            a file format that can't hold the lens              422
         TooLarge                    over a limit that a setting names                   413
         NotFound                    no such dataset, image, run...                      404
             NoHistory               a segment that nobody can tell how it was found     404
@@ -123,6 +124,12 @@ class NoEdge(InvalidInput):
     """Nothing in the image runs where an edge was to be traced."""
 
     code = "no-edge"
+
+
+class CannotExport(InvalidInput):
+    """The file format asked for can't hold the lens closely enough."""
+
+    code = "cannot-export"
 
 
 class TooLarge(ClearLinesError):
