@@ -13,6 +13,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from app import __version__
+from app.cli.calibrating import calibrate
 from app.cli.exchange import export, import_
 from app.cli.leaderboard import baseline, card, submit
 from app.cli.serving import demo, serve
@@ -33,6 +34,7 @@ for _name, _command in {
     "serve": serve,
     "prelabel": prelabel,
     "evaluate": evaluate,
+    "calibrate": calibrate,
     "synthesize": synthesize,
     "import": import_,
     "export": export,
@@ -59,7 +61,7 @@ def main() -> None:
         app(standalone_mode=True)
     except SystemExit as end:
         if end.code == INTERRUPTED:
-            terminal.print("stopped; the same command goes on where this one was")
+            terminal.print("stopped; no file is half-written, and the same command can be given again")
         raise
     except ClearLinesError as error:
         tell(error)

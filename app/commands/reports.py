@@ -34,7 +34,7 @@ def print_prelabel(report: PrelabelReport, console: Console) -> None:
     console.print(table)
     _print_more(len(report.cameras), "cameras", console)
     console.print(f"{report.candidates} candidates in {len(report.images)} images are in {report.output}")
-    _print_failed(((name, str(error)) for name, error in report.failed.items()), console)
+    print_failed(((name, str(error)) for name, error in report.failed.items()), console)
 
 
 def print_evaluation(result: EvaluatedFolder, console: Console, *, table: bool = False) -> None:
@@ -45,7 +45,7 @@ def print_evaluation(result: EvaluatedFolder, console: Console, *, table: bool =
         console.print(f"pictures are in {result.pictures}")
     if result.without_picture:
         console.print(f"without an image to draw on: {', '.join(result.without_picture[:SHOWN])}", markup=False)
-    _print_failed(((error.where or "", error.message) for error in result.picture_errors), console)
+    print_failed(((error.where or "", error.message) for error in result.picture_errors), console)
 
 
 def print_import(result: FolderImport, console: Console) -> None:
@@ -55,10 +55,11 @@ def print_import(result: FolderImport, console: Console) -> None:
         f"{len(report.added)} images added, {len(report.existing)} were there already, "
         f"{report.labels} with labels: dataset {result.slug}"
     )
-    _print_failed(((file.name, file.error["message"]) for file in report.failed), console)
+    print_failed(((file.name, file.error["message"]) for file in report.failed), console)
 
 
-def _print_failed(failed: Iterable[tuple[str, str]], console: Console) -> None:
+def print_failed(failed: Iterable[tuple[str, str]], console: Console) -> None:
+    """Tell what failed, given as name and reason."""
     rows = list(failed)
     for name, reason in rows[:SHOWN]:
         console.print("[bold red]failed:[/]", end=" ")

@@ -11,16 +11,21 @@ from uuid import uuid4
 def write_whole(path: Path, data: bytes) -> None:
     """Write a file under a temporary name beside its place, then move it there; folders are made.
 
-    Whoever looks sees the old file or the new one, never a part; after a failure nothing is left behind.
+    Whoever looks sees the old file or the new one, never a part; after a failure nothing is left behind. A link stays
+    one: what it leads to is written. What is there and is no file, as ``/dev/stdout`` or a pipe, is written into.
 
     Raises:
         OSError: If the folder can't be made or written to.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{uuid4().hex}.tmp")
+    place = path.resolve()
+    if place.exists() and not place.is_file():
+        place.write_bytes(data)
+        return
+    place.parent.mkdir(parents=True, exist_ok=True)
+    temporary = place.with_name(f".{uuid4().hex}.tmp")
     try:
         temporary.write_bytes(data)
-        temporary.replace(path)
+        temporary.replace(place)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise

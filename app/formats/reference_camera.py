@@ -53,8 +53,8 @@ def read_cameras(data: bytes, *, where: str = "cameras.json") -> Mapping[str, Re
     if not isinstance(document, dict):
         raise InvalidFile("there are no cameras", where=where, expected='{NAME: {"width", "height", "K", "D"}}')
     if "K" in document:
-        return {ALL: _camera(document, where)}
-    return {composed(name): _camera(entry, f"{where}: {name}") for name, entry in document.items()}
+        return {ALL: camera_from_fields(document, where)}
+    return {composed(name): camera_from_fields(entry, f"{where}: {name}") for name, entry in document.items()}
 
 
 def write_cameras(cameras: Mapping[str, ReferenceCamera]) -> bytes:
@@ -62,7 +62,12 @@ def write_cameras(cameras: Mapping[str, ReferenceCamera]) -> bytes:
     return json.dumps({name: cameras[name].as_dict() for name in sorted(cameras)}, indent=1).encode()
 
 
-def _camera(entry: Any, where: str) -> ReferenceCamera:
+def camera_from_fields(entry: Any, where: str) -> ReferenceCamera:
+    """Return the camera of one entry of ``cameras.json``.
+
+    Raises:
+        InvalidFile: If it is no object, or naming the field that isn't what it should be.
+    """
     if not isinstance(entry, dict):
         raise InvalidFile("a camera is no object", where=where, expected='{"width", "height", "K", "D"}')
     width, height = (_side(entry.get(name), f"{where}, {name}") for name in ("width", "height"))

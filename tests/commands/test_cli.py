@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 COMMANDS = (
-    *("demo", "serve", "prelabel", "evaluate", "synthesize", "import", "export"),
+    *("demo", "serve", "prelabel", "evaluate", "calibrate", "synthesize", "import", "export"),
     *("submit", "baseline", "card", "token"),
 )
 
@@ -45,6 +45,9 @@ MISTAKES = (
     ["prelabel", ".", "--output", "out", "--format", "xml"],
     ["prelabel", ".", "--output", "a_file/below"],
     ["evaluate", "--ground-truth", "nowhere", "--predictions", "."],
+    ["calibrate", "nowhere"],
+    ["calibrate", ".", "--family", "fisheye"],
+    ["calibrate", ".", "--size", "640"],
     ["import", "nowhere", "--dataset", "x"],
     ["export", "x", "--output", "a_file"],
 )
@@ -117,7 +120,7 @@ def test_a_name_with_brackets_is_no_markup(clearlines: Any, tmp_path: Path) -> N
 def test_a_synthetic_dataset_goes_in_and_comes_out_unchanged(clearlines: Any, tmp_path: Path) -> None:
     clearlines("synthesize", "--count", 1, "--output", "streets", "--seed", 3)
     streets, out = tmp_path / "streets", tmp_path / "out"
-    labels = sorted(path.relative_to(streets) for path in (streets / "labels").rglob("*.npy"))
+    labels = sorted(path.relative_to(streets) for path in (streets / "labels").rglob("*_filtered.npy"))
     assert len(labels) == 1
     done = clearlines("import", "streets", "--dataset", "Synthetic streets")
     assert "1 images added" in done.stderr
