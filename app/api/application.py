@@ -23,6 +23,8 @@ from app.api.problems import answers, install_problem_handlers
 from app.api.routers import (
     agreement,
     board,
+    calibration_files,
+    calibrations,
     cameras,
     candidates,
     cards,
@@ -45,6 +47,7 @@ from app.api.routers import (
 )
 from app.clock import utc_now
 from app.db.session import open_database, upgrade
+from app.jobs.calibration_desk import CalibrationDesk
 from app.jobs.dispatcher import Dispatcher
 from app.jobs.feature_desk import FeatureDesk
 from app.jobs.histories import Histories
@@ -74,6 +77,8 @@ ROUTERS = (
     suggestions,
     runs,
     cameras,
+    calibrations,
+    calibration_files,
     exports,
     splits,
     submissions,
@@ -102,6 +107,7 @@ def create_application(settings: Settings) -> FastAPI:
         tables = CardTables(database)
         desk = scoring_desk(settings, blobs)
         tracer = Tracer(blobs, settings.max_image_pixels)
+        calibration_desk = CalibrationDesk()
         application.state.server = Server(
             settings,
             database,
@@ -114,6 +120,7 @@ def create_application(settings: Settings) -> FastAPI:
             utc_now,
             desk,
             tracer,
+            calibration_desk,
         )
         housekeeper = Housekeeper(database, blobs, grace=settings.grace, clock=utc_now)
         dispatcher.start()
@@ -127,6 +134,7 @@ def create_application(settings: Settings) -> FastAPI:
             features.stop()
             desk.stop()
             tracer.stop()
+            calibration_desk.stop()
             database.close()
 
     application = FastAPI(

@@ -12,6 +12,7 @@ from sqlalchemy.orm import Session
 
 from app.api.decoding import Decoding
 from app.db.session import Database
+from app.jobs.calibration_desk import CalibrationDesk
 from app.jobs.dispatcher import Dispatcher
 from app.jobs.feature_desk import FeatureDesk
 from app.jobs.histories import Histories
@@ -39,6 +40,7 @@ class Server:
     clock: Callable[[], datetime]
     desk: ScoringDesk
     tracer: Tracer
+    calibrations: CalibrationDesk
     decoding: Decoding = field(default_factory=Decoding)
 
 

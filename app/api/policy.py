@@ -43,6 +43,18 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /segments/{segment_id}/evidence",
         "GET /runs/{run_id}",
         "GET /runs/{run_id}/images",
+        "GET /cameras/{camera_id}",
+        "GET /cameras/{camera_id}/calibrations",
+        "GET /calibrations/{calibration_id}",
+        "GET /calibrations/{calibration_id}/lines",
+        "GET /calibrations/{calibration_id}/images",
+        "GET /calibrations/{calibration_id}/images/{image_id}/undistorted",
+        "GET /calibrations/{calibration_id}/images/{image_id}/lines",
+        "GET /calibrations/{calibration_id}/difference",
+        "GET /calibrations/{calibration_id}/advice",
+        "GET /calibrations/{calibration_id}/exports",
+        "GET /calibrations/{calibration_id}/exports/{format}",
+        "GET /calibrations/{calibration_id}/report",
         "GET /splits",
         "GET /splits/{split}",
         "GET /splits/{split}/images",
@@ -114,6 +126,11 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "PATCH /images/{image_id}",
         "DELETE /images/{image_id}",
         "PATCH /cameras/{camera_id}",
+        "POST /cameras/{camera_id}/reference-file",
+        "POST /cameras/{camera_id}/calibrations",
+        "POST /calibrations/{calibration_id}/cancel",
+        "DELETE /calibrations/{calibration_id}",
+        "POST /calibrations/{calibration_id}/restore",
         "POST /runs/{run_id}/retry",
         "POST /runs/{run_id}/cancel",
         "DELETE /runs/{run_id}",
@@ -160,7 +177,7 @@ class Request:
 
     Attributes:
         named: What the address names: ``dataset`` (its slug), ``image_id``, ``segment_id``, ``run_id``, ``camera_id``,
-            ``second_review_id``.
+            ``calibration_id``, ``second_review_id``.
         submissions: Ids of submissions whose details it tells.
     """
 

@@ -15,6 +15,7 @@ from datetime import datetime, timedelta
 
 from app.db.session import Database
 from app.jobs.arrivals import store_arrived
+from app.jobs.calibration_work import has_calibrations, look_after_calibrations
 from app.jobs.executor import make_background_executor
 from app.jobs.flight import Flight
 from app.jobs.intake import take_work, work_is_left
@@ -33,6 +34,7 @@ from app.storage import BlobStore
 logger = logging.getLogger(__name__)
 
 DATABASE_PAUSE = 1.0  # s; how long to wait after the database couldn't answer
+LONG_WORK_PAUSE = 1.0  # s; how often long work in hand is asked how far it is, and told if nobody wants it any more
 
 
 class Dispatcher:
@@ -77,6 +79,7 @@ class Dispatcher:
         self._lock = lock_for(database)
         self._holds_lock = False
         self._last_beat: datetime | None = None
+        self._last_look: datetime | None = None
         self._thread: threading.Thread | None = None
         self._webhooks = Webhooks(database, settings, clock)
 
@@ -119,6 +122,8 @@ class Dispatcher:
                 pause = self._settings.heartbeat_seconds
                 try:
                     self._turn(self._clock(), None if until_idle else self._suggestions)
+                    if has_calibrations(self._flight.work):
+                        pause = min(pause, LONG_WORK_PAUSE)
                     if progress is not None:
                         progress()
                     if until_idle and not self._flight.work and not work_is_left(self._database):
@@ -138,6 +143,7 @@ class Dispatcher:
         if self._acquire_lock():
             store_arrived(self._flight, self._stores, now, on_total=self._webhooks.wake)
             self._beat(now)
+            self._look_after_long_work(now)
             finish_runs(self._database, now)
             take_work(self._flight, self._database, now, suggestions)
             self._send(now)
@@ -157,6 +163,11 @@ class Dispatcher:
         if self._last_beat is None or now - self._last_beat >= pause:
             keep_alive(self._flight.work, self._stores, now, silence=timedelta(seconds=self._settings.stale_seconds))
             self._last_beat = now
+
+    def _look_after_long_work(self, now: datetime) -> None:
+        if self._last_look is None or now - self._last_look >= timedelta(seconds=LONG_WORK_PAUSE):
+            look_after_calibrations(self._flight.work, self._stores, now)
+            self._last_look = now
 
     def _send(self, now: datetime) -> None:
         while (work := self._flight.next()) is not None and not self._stopping.is_set():
@@ -183,4 +194,4 @@ class Dispatcher:
             logger.warning("work in flight is taken up at the next start: %s", error)
         self._lock.release()
         self._holds_lock = False
-        self._last_beat = None
+        self._last_beat = self._last_look = None

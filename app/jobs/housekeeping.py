@@ -53,7 +53,7 @@ class Housekeeper:
         while not self._stopping.is_set():
             try:
                 purged = purge(self._database, self._blobs, self._clock(), grace=self._grace)
-                if any((purged.datasets, purged.images, purged.runs, purged.blobs)):
+                if any(vars(purged).values()):
                     logger.info("purged %s", purged)
             except (SQLAlchemyError, ClearLinesError, OSError):
                 logger.warning("the purge failed; it is tried again later", exc_info=True)

@@ -5,17 +5,19 @@ from __future__ import annotations
 from datetime import datetime
 
 from app.db.session import Database
+from app.jobs.calibration_work import take_calibration
 from app.jobs.flight import Flight
 from app.jobs.scoring_steps import scoring_in_hand, scoring_share, scoring_work
 from app.jobs.suggestion_intake import SuggestionIntake
 from app.jobs.work import DetectWork, EstimateWork, JudgeWork, Work
+from app.services.calibration_queue import has_calibration_work
 from app.services.lens_estimates import pending_estimates, pending_judgements
 from app.services.run_queue import claim_images, has_queued_images, unsettled_runs
 from app.services.scoring_queue import claim_scoring, has_scoring_work
 
 
 def take_work(flight: Flight, database: Database, now: datetime, suggestions: SuggestionIntake | None = None) -> None:
-    """Take work in hand: of submissions first, as somebody waits for it and it is short; then of runs.
+    """Take work in hand: of submissions first, as somebody waits for it and it is short; a calibration; then of runs.
 
     Args:
         flight: Work in hand; it tells how much room there is.
@@ -25,6 +27,7 @@ def take_work(flight: Flight, database: Database, now: datetime, suggestions: Su
     """
     if flight.room:
         _take_scoring(flight, database, now)
+        take_calibration(flight, database, now)
         _take_of_runs(flight, database, now)
         if suggestions is not None:
             suggestions.take(flight, database)
@@ -33,7 +36,12 @@ def take_work(flight: Flight, database: Database, now: datetime, suggestions: Su
 def work_is_left(database: Database) -> bool:
     """Whether the rows hold work that isn't done, in hand or not."""
     with database.read() as session:
-        return bool(has_queued_images(session) or has_scoring_work(session) or unsettled_runs(session, limit=1))
+        return bool(
+            has_queued_images(session)
+            or has_scoring_work(session)
+            or has_calibration_work(session)
+            or unsettled_runs(session, limit=1)
+        )
 
 
 def _take_scoring(flight: Flight, database: Database, now: datetime) -> None:

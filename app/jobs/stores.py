@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from app.db.session import Database
 from app.formats.submission_limits import SUBMISSION_LIMITS, SubmissionLimits
@@ -22,6 +23,7 @@ class Stores:
         max_attempts: Tries of a submission.
         submission_limits: How much a submission may hold.
         task_limits: What one task for a submission may take.
+        notes: Folder of the notes between dispatcher and workers.
         sets: Segments of submissions and truths, read once for all their images.
     """
 
@@ -31,7 +33,9 @@ class Stores:
     max_attempts: int = 3
     submission_limits: SubmissionLimits = SUBMISSION_LIMITS
     task_limits: TaskLimits = TASK_LIMITS
+    notes: Path = field(init=False)
     sets: SegmentSets = field(init=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "notes", self.blobs.root.parent / "notes")
         object.__setattr__(self, "sets", SegmentSets(self.blobs))

@@ -10,6 +10,7 @@ from app.db.session import Database
 from app.jobs.scoring_steps import submissions_in_hand
 from app.jobs.stores import Stores
 from app.jobs.work import DetectWork, Work
+from app.services.calibration_queue import release_lost_calibrations
 from app.services.lens_estimates import finish_settled_runs
 from app.services.run_queue import beat, release_lost, unsettled_runs
 from app.services.scoring_attempts import beat_submissions, release_lost_submissions
@@ -22,6 +23,7 @@ def take_up_lost(stores: Stores, now: datetime) -> None:
     with stores.database.write() as session:
         lost = release_lost(session, stores.max_attempts)
         lost += release_lost_submissions(session, stores.max_attempts, now)
+        lost += release_lost_calibrations(session, stores.max_attempts, now)
     if lost:
         logger.info("took up %d pieces of work that were left behind", lost)
 
@@ -42,6 +44,7 @@ def keep_alive(work: Sequence[Work], stores: Stores, now: datetime, *, silence: 
         # a claim whose commit went through although the connection broke is in nobody's hand
         release_lost(session, stores.max_attempts, silent_since=now - silence)
         release_lost_submissions(session, stores.max_attempts, now, silent_since=now - silence)
+        release_lost_calibrations(session, stores.max_attempts, now, silent_since=now - silence)
 
 
 def finish_runs(database: Database, now: datetime) -> None:

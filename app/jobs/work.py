@@ -11,8 +11,10 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Any, Protocol
 
+from app.calibration.work_order import CalibrationFound
 from app.db.models import Image
 from app.evaluation.submission_scoring import ImageRecord
+from app.jobs.calibration_tasks import calibrate_task
 from app.jobs.scoring_tasks import Validated, score_task, total_task, validate_task
 from app.jobs.stores import Stores
 from app.jobs.suggestion_learning import Trained, train_task
@@ -46,6 +48,7 @@ class Tasks:
     total: Callable[..., dict[str, Any]] = total_task
     features: Callable[..., CandidateFacts] = features_task
     train: Callable[..., Trained] = train_task
+    calibrate: Callable[..., CalibrationFound] = calibrate_task
 
 
 class Work(Protocol):

@@ -1,9 +1,7 @@
-"""Cameras: the images that share one lens, its estimates, and a reference distortion known from elsewhere."""
+"""Cameras: the images that share one lens, and its estimates."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
@@ -14,7 +12,6 @@ from sqlalchemy.orm import Session
 from app.db.models import Camera, CameraEstimate, Dataset, Image, Run
 from app.errors import Conflict, InvalidInput, NotFound
 from app.formats.naming import composed
-from app.formats.reference_camera import ReferenceCamera, read_cameras
 from app.services.events import record_event
 
 NAME_LENGTH = 300
@@ -132,70 +129,6 @@ def rename_camera(session: Session, camera: Camera, name: str, now: datetime, *,
     camera.name = name
     session.flush()
     return camera
-
-
-def set_reference(
-    session: Session,
-    camera: Camera,
-    reference: Mapping[str, Any] | None,
-    now: datetime,
-    *,
-    person: str | None = None,
-) -> Camera:
-    """Store a calibration that is known from elsewhere, or clear it.
-
-    Args:
-        session: A writing session.
-        camera: The camera.
-        reference: ``{"K": 3 x 3, "D": [k1, k2, p1, p2, ...]}`` in OpenCV's convention, K in px; ``None`` clears it.
-        now: When.
-        person: Who did it.
-
-    Raises:
-        InvalidInput: When it is no such calibration, or one for another image size.
-    """
-    camera.reference = None if reference is None else checked_reference(reference, camera.width, camera.height)
-    session.flush()
-    details = {"camera": camera.name, "reference": camera.reference}
-    record_event(session, "camera.reference", now, dataset_id=camera.dataset_id, person=person, details=details)
-    return camera
-
-
-def checked_reference(reference: Mapping[str, Any], width: int, height: int) -> dict[str, Any]:
-    """Return ``K`` and ``D`` as plain floats.
-
-    Raises:
-        InvalidInput: Naming the field that is wrong.
-    """
-    entry = {"width": width, "height": height, **reference}
-    try:
-        document = json.dumps({"reference": entry}, allow_nan=False).encode()
-    except (TypeError, ValueError) as error:
-        raise InvalidInput("a value is no finite number", where="reference") from error
-    return stored_reference(read_cameras(document, where="reference")["reference"], width, height)
-
-
-def stored_reference(reference: ReferenceCamera, width: int, height: int) -> dict[str, Any]:
-    """Return a reference in the form of the camera's column.
-
-    Raises:
-        InvalidInput: When it is for images of another size.
-    """
-    if (reference.width, reference.height) != (width, height):
-        raise InvalidInput(
-            f"the calibration is for images of {reference.width} x {reference.height} px",
-            where="reference",
-            expected=f"{width} x {height} px",
-        )
-    return {"K": [list(row) for row in reference.matrix], "D": list(reference.distortion)}
-
-
-def reference_camera(camera: Camera) -> ReferenceCamera | None:
-    """Return a camera's reference in the form that files have."""
-    if camera.reference is None:
-        return None
-    rows = tuple((float(a), float(b), float(c)) for a, b, c in camera.reference["K"])
-    return ReferenceCamera(camera.width, camera.height, rows, tuple(camera.reference["D"]))
 
 
 def _entries(session: Session, chosen: Any) -> list[CameraEntry]:

@@ -15,6 +15,7 @@ from sqlalchemy import ColumnElement, Select, exists, or_, select
 from sqlalchemy.orm import Session
 
 from app.db.models import (
+    Calibration,
     Camera,
     Dataset,
     Image,
@@ -73,7 +74,7 @@ def require_visible(session: Session, viewer: Viewer, named: Mapping[str, str]) 
         session: Any session.
         viewer: Who asks.
         named: What the address names: ``dataset`` (its slug), ``image_id``, ``segment_id``, ``run_id``, ``camera_id``,
-            ``second_review_id``, as text.
+            ``calibration_id``, ``second_review_id``, as text.
 
     Raises:
         NotFound: When one of them lies in a concealed dataset; also on an id that isn't written in plain digits,
@@ -144,6 +145,14 @@ def _of_camera(value: str) -> Select[int]:
     return select(Camera.dataset_id).where(Camera.id == int(value))
 
 
+def _of_calibration(value: str) -> Select[int]:
+    return (
+        select(Camera.dataset_id)
+        .join(Calibration, Calibration.camera_id == Camera.id)
+        .where(Calibration.id == int(value))
+    )
+
+
 def _of_second_review(value: str) -> Select[int]:
     second = select(SecondReview.image_id).where(SecondReview.id == int(value))
     return select(Image.dataset_id).where(Image.id.in_(second))
@@ -155,6 +164,7 @@ _DATASET_OF: Mapping[str, Callable[[str], Select[int]]] = {
     "segment_id": _of_segment,
     "run_id": _of_run,
     "camera_id": _of_camera,
+    "calibration_id": _of_calibration,
     "second_review_id": _of_second_review,
 }
 

@@ -18,7 +18,7 @@ from app.formats.labelled import LabelledSegments
 from app.formats.labelled_image import LabelledImage
 from app.formats.members import stream_zip
 from app.services.batches import in_batches
-from app.services.cameras import reference_camera
+from app.services.camera_references import reference_camera
 from app.services.candidates import current_segments, verdict_of_segment
 from app.services.datasets import get_dataset
 from app.services.images import NAMES_SHOWN

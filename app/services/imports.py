@@ -21,7 +21,8 @@ from app.formats.dataset import DatasetImage, read_dataset, reference_of
 from app.formats.files import read_file
 from app.formats.reference_camera import ReferenceCamera
 from app.formats.segment_files import read_segments
-from app.services.cameras import default_camera_name, stored_reference
+from app.services.camera_references import stored_reference
+from app.services.cameras import default_camera_name
 from app.services.datasets import checked_dataset_name, create_dataset
 from app.services.events import record_event
 from app.services.image_adding import ReceivedImage, add_image, receive_image

@@ -12,6 +12,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import (
     Blob,
+    Calibration,
     Dataset,
     Decision,
     Image,
@@ -46,6 +47,7 @@ class Purged:
     images: int
     runs: int
     blobs: int
+    calibrations: int = 0
 
 
 def purge(database: Database, blobs: BlobStore, now: datetime, *, grace: timedelta) -> Purged:
@@ -60,11 +62,12 @@ def purge(database: Database, blobs: BlobStore, now: datetime, *, grace: timedel
     deadline = now - grace
     images = _purge_images(database, deadline)
     runs = _purge_runs(database, deadline, now)
+    calibrations = _purge_calibrations(database, deadline)
     datasets = _purge_datasets(database, deadline)
     _purge_invalid(database, deadline)
     files = _purge_blobs(database, blobs) + _purge_orphans(database, blobs, now)
     blobs.discard_incoming(before=(now - YOUNG).timestamp())
-    return Purged(datasets, images, runs, files)
+    return Purged(datasets, images, runs, files, calibrations)
 
 
 def _purge_images(database: Database, deadline: datetime) -> int:
@@ -113,6 +116,13 @@ def _purge_run(session: Session, run: Run, now: datetime) -> None:
     session.execute(delete(Run).where(Run.id == run.id))
     for batch in in_batches(images):
         refresh_counts(session, batch)
+
+
+def _purge_calibrations(database: Database, deadline: datetime) -> int:
+    with database.write() as session:
+        ids = session.scalars(select(Calibration.id).where(Calibration.deleted_at <= deadline)).all()
+        session.execute(delete(Calibration).where(Calibration.id.in_(ids)))
+    return len(ids)
 
 
 def _purge_datasets(database: Database, deadline: datetime) -> int:

@@ -5,6 +5,7 @@ and purged after the grace period, until when the deletion can be undone. Times 
 """
 
 from app.db.models.base import NEVER_REUSED, Base, Name, UtcDateTime, alive_unique, one_of
+from app.db.models.calibrations import CALIBRATION_SOURCES, Calibration
 from app.db.models.datasets import Blob, Camera, Dataset, Image, Installation
 from app.db.models.labelling import (
     DECISION_KINDS,
@@ -46,6 +47,7 @@ from app.db.models.submissions import (
 from app.db.models.tokens import ROLES, Token
 
 __all__ = [
+    "CALIBRATION_SOURCES",
     "DECISION_KINDS",
     "EDIT_KINDS",
     "FINAL_STATES",
@@ -65,6 +67,7 @@ __all__ = [
     "Adjudication",
     "Base",
     "Blob",
+    "Calibration",
     "Camera",
     "CameraEstimate",
     "Dataset",

@@ -4,7 +4,51 @@
  */
 
 export interface paths {
-    "/api/cameras/{camera_id}": {
+    "/api/calibrations/{calibration_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Calibration
+         * @description Return a calibration: how far it is, and its whole result once it is done.
+         */
+        get: operations["read_calibration_api_calibrations__calibration_id__get"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Calibration
+         * @description Delete a calibration; it can be restored during the grace period.
+         */
+        delete: operations["delete_calibration_api_calibrations__calibration_id__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/advice": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Advice
+         * @description Return where more lines would help most, and the images to label next.
+         */
+        get: operations["read_advice_api_calibrations__calibration_id__advice_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/cancel": {
         parameters: {
             query?: never;
             header?: never;
@@ -12,6 +56,215 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
+        put?: never;
+        /**
+         * Cancel Calibration
+         * @description Stop a calibration.
+         */
+        post: operations["cancel_calibration_api_calibrations__calibration_id__cancel_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Difference
+         * @description Return how far the lens is from the camera's reference, over the frame.
+         */
+        get: operations["read_difference_api_calibrations__calibration_id__difference_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/exports": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Exports
+         * @description List the formats that the lens can be written in, with the error of each conversion.
+         */
+        get: operations["list_exports_api_calibrations__calibration_id__exports_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/exports/{format}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Calibration
+         * @description Return the lens as a file that another tool reads, refitted to that tool's model over the frame.
+         *
+         *     The header `X-Conversion-Error` tells what the refit lost, px. 422 with the code `cannot-export` where it is too
+         *     much, with the formats that hold the lens in the hint.
+         */
+        get: operations["export_calibration_api_calibrations__calibration_id__exports__format__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/images": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Calibration Images
+         * @description List the images that a calibration read, those best suited to look at first.
+         */
+        get: operations["list_calibration_images_api_calibrations__calibration_id__images_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/images/{image_id}/lines": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Image Lines
+         * @description Return the lines of one image as they were measured, and with the lens taken out.
+         */
+        get: operations["read_image_lines_api_calibrations__calibration_id__images__image_id__lines_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/images/{image_id}/undistorted": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Undistorted
+         * @description Return an image of the camera with this calibration's lens taken out; black where the image doesn't reach.
+         */
+        get: operations["read_undistorted_api_calibrations__calibration_id__images__image_id__undistorted_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/lines": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Calibration Lines
+         * @description List the lines of a calibration, those furthest from straight first.
+         *
+         *     Decisions and edits made later change nothing here; `state` says what became of a line's segment.
+         */
+        get: operations["list_calibration_lines_api_calibrations__calibration_id__lines_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/report": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Report
+         * @description Return the calibration as a page to print: one file of HTML that loads nothing and runs no script.
+         */
+        get: operations["read_report_api_calibrations__calibration_id__report_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibrations/{calibration_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Calibration
+         * @description Bring a deleted calibration back.
+         */
+        post: operations["restore_calibration_api_calibrations__calibration_id__restore_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/cameras/{camera_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Camera
+         * @description Return a camera with its newest calibration, the one at work, and what has changed since.
+         */
+        get: operations["read_camera_api_cameras__camera_id__get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -22,6 +275,52 @@ export interface paths {
          * @description Rename a camera, or set or clear its reference distortion.
          */
         patch: operations["change_camera_api_cameras__camera_id__patch"];
+        trace?: never;
+    };
+    "/api/cameras/{camera_id}/calibrations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Calibrations
+         * @description List a camera's calibrations, newest first; with ``deleted`` those that can still be restored.
+         */
+        get: operations["list_calibrations_api_cameras__camera_id__calibrations_get"];
+        put?: never;
+        /**
+         * Start Calibration
+         * @description Have the camera's lens estimated from lines of its images; a worker begins at once.
+         *
+         *     409 while another one of this camera is at work, named in `details.calibration`.
+         */
+        post: operations["start_calibration_api_cameras__camera_id__calibrations_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/cameras/{camera_id}/reference-file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Upload Reference
+         * @description Set a camera's reference distortion from a file that another tool wrote.
+         */
+        post: operations["upload_reference_api_cameras__camera_id__reference_file_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
     "/api/configuration": {
@@ -1868,6 +2167,54 @@ export interface components {
             verdict: "keep" | "reject" | "ambiguous";
         };
         /**
+         * Advice
+         * @description Where more lines would help most, and the images to label next; best first.
+         */
+        Advice: {
+            /** Cells */
+            cells: components["schemas"]["AdviceCell"][];
+            /** Images */
+            images: components["schemas"]["AdviceImage"][];
+        };
+        /**
+         * AdviceCell
+         * @description A place in the frame where more lines would help; px.
+         */
+        AdviceCell: {
+            /** Column */
+            column: number;
+            /** Halves */
+            halves: boolean;
+            /** Row */
+            row: number;
+            /** Sigma Now */
+            sigma_now: number;
+            /**
+             * Sigma With
+             * @description With five more lines of 150 px there.
+             */
+            sigma_with: number;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+        };
+        /**
+         * AdviceImage
+         * @description An image that nobody has labelled, and what its candidates would tell.
+         */
+        AdviceImage: {
+            /**
+             * Gain
+             * @description Expected reduction of the predicted error, px.
+             */
+            gain: number;
+            /** Image Id */
+            image_id: number;
+            /** Name */
+            name: string;
+        };
+        /**
          * AgreementAnswer
          * @description How far the people of a dataset agree.
          */
@@ -2069,6 +2416,14 @@ export interface components {
              */
             files: string[];
         };
+        /** Body_upload_reference_api_cameras__camera_id__reference_file_post */
+        Body_upload_reference_api_cameras__camera_id__reference_file_post: {
+            /**
+             * File
+             * @description OpenCV's YAML or JSON, ROS's camera_info, or cameras.json.
+             */
+            file: string;
+        };
         /** Body_validate_submission_api_splits__split__submissions_validate_post */
         Body_validate_submission_api_splits__split__submissions_validate_post: {
             /**
@@ -2076,6 +2431,28 @@ export interface components {
              * @description One .zip or .tar.gz of a file per image, one .npz or .json for all, or a file per image.
              */
             files: string[];
+        };
+        /**
+         * BrownAnswer
+         * @description The lens in the parameters of the paper, and what that refit lost.
+         */
+        BrownAnswer: {
+            /** Center */
+            center: [
+                number,
+                number
+            ];
+            /** Height */
+            height: number;
+            /** K */
+            k: number[];
+            /** P */
+            p: number[];
+            refit_error: components["schemas"]["FieldErrorAnswer"];
+            /** Scale */
+            scale: number;
+            /** Width */
+            width: number;
         };
         /**
          * Calibration
@@ -2118,6 +2495,59 @@ export interface components {
             log_loss: number;
         };
         /**
+         * CalibrationAnswer
+         * @description A calibration with its result; null before it is done.
+         */
+        CalibrationAnswer: {
+            /** Attempts */
+            attempts: number;
+            /** Camera Id */
+            camera_id: number;
+            /** Code Version */
+            code_version: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Deleted At */
+            deleted_at: string | null;
+            error: components["schemas"]["ErrorInfo"] | null;
+            /**
+             * Family
+             * @description As asked for; null for the best one.
+             */
+            family: ("brown" | "opencv" | "division") | null;
+            /** Finished At */
+            finished_at: string | null;
+            /** Id */
+            id: number;
+            /** N Images */
+            n_images: number;
+            /** N Segments */
+            n_segments: number;
+            parameters: components["schemas"]["CalibrationScope"];
+            /** Person */
+            person: string | null;
+            progress: components["schemas"]["CalibrationProgress"] | null;
+            /** Restorable Until */
+            restorable_until: string | null;
+            result: components["schemas"]["CalibrationResult"] | null;
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "labels" | "candidates";
+            /** Started At */
+            started_at: string | null;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            summary: components["schemas"]["CalibrationSummary"] | null;
+        };
+        /**
          * CalibrationBin
          * @description Candidates of about one probability, on images that the model wasn't learnt from.
          */
@@ -2145,6 +2575,338 @@ export interface components {
              * @description Mean probability that they had.
              */
             predicted: number | null;
+        };
+        /**
+         * CalibrationBrief
+         * @description A calibration without its maps.
+         */
+        CalibrationBrief: {
+            /** Attempts */
+            attempts: number;
+            /** Camera Id */
+            camera_id: number;
+            /** Code Version */
+            code_version: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Deleted At */
+            deleted_at: string | null;
+            error: components["schemas"]["ErrorInfo"] | null;
+            /**
+             * Family
+             * @description As asked for; null for the best one.
+             */
+            family: ("brown" | "opencv" | "division") | null;
+            /** Finished At */
+            finished_at: string | null;
+            /** Id */
+            id: number;
+            /** N Images */
+            n_images: number;
+            /** N Segments */
+            n_segments: number;
+            parameters: components["schemas"]["CalibrationScope"];
+            /** Person */
+            person: string | null;
+            progress: components["schemas"]["CalibrationProgress"] | null;
+            /** Restorable Until */
+            restorable_until: string | null;
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "labels" | "candidates";
+            /** Started At */
+            started_at: string | null;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            summary: components["schemas"]["CalibrationSummary"] | null;
+        };
+        /**
+         * CalibrationCounts
+         * @description What was used.
+         */
+        CalibrationCounts: {
+            /** Images */
+            images: number;
+            /** Inliers */
+            inliers: number;
+            /** Points */
+            points: number;
+            /** Segments */
+            segments: number;
+            /** Used */
+            used: number;
+        };
+        /**
+         * CalibrationGiven
+         * @description What a camera's lens is to be estimated from.
+         * @example {
+         *       "source": "labels"
+         *     }
+         */
+        CalibrationGiven: {
+            /**
+             * Family
+             * @description The lens model; the one that fits best if left out.
+             */
+            family?: ("brown" | "opencv" | "division") | null;
+            /**
+             * Source
+             * @description Lines that people kept; or all candidates but rejected ones, by how straight they are.
+             * @default labels
+             * @enum {string}
+             */
+            source: "labels" | "candidates";
+        };
+        /**
+         * CalibrationImage
+         * @description An image that a calibration read.
+         */
+        CalibrationImage: {
+            /** Image Id */
+            image_id: number;
+            /** Inliers */
+            inliers: number;
+            /**
+             * Is There
+             * @description Whether it is an image of the camera still.
+             */
+            is_there: boolean;
+            /**
+             * Left Out Shift
+             * @description px RMS by which the lens would differ without it.
+             */
+            left_out_shift: number | null;
+            /** Name */
+            name: string;
+            /** Rms */
+            rms: number | null;
+            /** Segments */
+            segments: number;
+        };
+        /**
+         * CalibrationLine
+         * @description A line and how far it is from straight under the lens, px.
+         */
+        CalibrationLine: {
+            /**
+             * Box
+             * @description x0, y0, x1, y1; null where it is gone.
+             */
+            box: [
+                number,
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * Image
+             * @description Its name; null where the image is gone.
+             */
+            image: string | null;
+            /** Image Id */
+            image_id: number;
+            /** Length */
+            length: number;
+            /** Maximum */
+            maximum: number | null;
+            /** Probability */
+            probability: number;
+            /** Rms */
+            rms: number | null;
+            /** Segment Id */
+            segment_id: number;
+            /**
+             * State
+             * @description What became of the segment since.
+             * @enum {string}
+             */
+            state: "current" | "replaced" | "gone";
+        };
+        /**
+         * CalibrationLinePage
+         * @description A page of a calibration's lines.
+         */
+        CalibrationLinePage: {
+            /** Items */
+            items: components["schemas"]["CalibrationLine"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Total */
+            total: number;
+        };
+        /**
+         * CalibrationPage
+         * @description A page of a camera's calibrations.
+         */
+        CalibrationPage: {
+            /** Items */
+            items: components["schemas"]["CalibrationBrief"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Total */
+            total: number;
+        };
+        /**
+         * CalibrationProgress
+         * @description How far the work is.
+         */
+        CalibrationProgress: {
+            /** Done */
+            done: number;
+            /** Stage */
+            stage: string;
+            /** Total */
+            total: number;
+        };
+        /**
+         * CalibrationResult
+         * @description A camera's lens from its lines, with all that is known of how good it is.
+         */
+        CalibrationResult: {
+            /** Accepted */
+            accepted: boolean;
+            brown: components["schemas"]["BrownAnswer"];
+            /** Correlation */
+            correlation: number[][];
+            counts: components["schemas"]["CalibrationCounts"];
+            /** Covariance */
+            covariance: number[][];
+            focal: components["schemas"]["FocalAnswer"] | null;
+            free: components["schemas"]["FreeModelAnswer"] | null;
+            /** Height */
+            height: number;
+            /** Images */
+            images: components["schemas"]["ImageFit"][];
+            /** Ladder */
+            ladder: components["schemas"]["LadderStep"][];
+            lens: components["schemas"]["LensAnswer"];
+            map: components["schemas"]["DisplacementMap"];
+            /** Noise */
+            noise: number;
+            /** Reasons */
+            reasons: string[];
+            /** Released */
+            released: string[];
+            /** Seed */
+            seed: number;
+            /** Sigma */
+            sigma: {
+                [key: string]: number;
+            };
+            uncertainty: components["schemas"]["LensUncertainty"];
+            /** Version */
+            version: number;
+            /** Warnings */
+            warnings: components["schemas"]["CalibrationWarning"][];
+            /** Width */
+            width: number;
+        };
+        /**
+         * CalibrationScope
+         * @description What a calibration read, of what there was.
+         */
+        CalibrationScope: {
+            /**
+             * Images Available
+             * @description Images of the camera that had lines.
+             * @default 0
+             */
+            images_available: number;
+            /**
+             * Most Images
+             * @description More images than these aren't read, but some spread evenly over all.
+             * @default 0
+             */
+            most_images: number;
+            /**
+             * Most Segments
+             * @description Of more lines than these, the shorter ones of each image are left out.
+             * @default 0
+             */
+            most_segments: number;
+            /**
+             * Segments
+             * @description Lines read.
+             * @default 0
+             */
+            segments: number;
+            /**
+             * Segments Available
+             * @description Their lines.
+             * @default 0
+             */
+            segments_available: number;
+        };
+        /**
+         * CalibrationSummary
+         * @description What lists show of a result; lengths in px.
+         */
+        CalibrationSummary: {
+            /** Accepted */
+            accepted: boolean;
+            /**
+             * Bound95
+             * @description The error lies below it with 95 %.
+             */
+            bound95: number;
+            /**
+             * Correction
+             * @description Size of the correction.
+             */
+            correction: number;
+            /**
+             * Family
+             * @enum {string}
+             */
+            family: "brown" | "opencv" | "division";
+            /**
+             * Inliers
+             * @description Lines that are straight under the lens.
+             */
+            inliers: number;
+            /**
+             * Noise
+             * @description Standard deviation of a point.
+             */
+            noise: number;
+            /**
+             * Pred
+             * @description Expected error over the frame, RMS.
+             */
+            pred: number;
+            /**
+             * Reasons
+             * @description Why it isn't accepted.
+             */
+            reasons: string[];
+            /**
+             * Released
+             * @description Parameters that were estimated.
+             */
+            released: string[];
+            /**
+             * Warnings
+             * @description Codes of what makes the lines tell less than their number suggests.
+             */
+            warnings: string[];
+        };
+        /**
+         * CalibrationWarning
+         * @description Something that makes the lines tell less than their number suggests.
+         */
+        CalibrationWarning: {
+            /** Code */
+            code: string;
+            /** Message */
+            message: string;
         };
         /**
          * CameraAnswer
@@ -2207,6 +2969,52 @@ export interface components {
             /** Name */
             name?: string | null;
             reference?: components["schemas"]["ReferenceDistortion"] | null;
+        };
+        /**
+         * CameraDetail
+         * @description A camera with its calibrations. ``estimate`` is what the newest run estimated from raw candidates.
+         */
+        CameraDetail: {
+            active_calibration: components["schemas"]["CalibrationBrief"] | null;
+            /** Candidates */
+            candidates: number;
+            dataset: components["schemas"]["DatasetName"];
+            /**
+             * Decisions Since
+             * @description Lines that are kept now and weren't for the latest calibration, or the other way round.
+             */
+            decisions_since: number;
+            /** Estimate */
+            estimate: {
+                [key: string]: unknown;
+            } | null;
+            /** Height */
+            height: number;
+            /** Id */
+            id: number;
+            /** Images */
+            images: number;
+            /**
+             * Images Labelled
+             * @description Images with kept lines.
+             */
+            images_labelled: number;
+            /** Kept Lines */
+            kept_lines: number;
+            latest_calibration: components["schemas"]["CalibrationBrief"] | null;
+            /**
+             * Latest Calibration Id
+             * @description The newest finished one.
+             */
+            latest_calibration_id: number | null;
+            /** Name */
+            name: string;
+            /** Reference */
+            reference: {
+                [key: string]: unknown;
+            } | null;
+            /** Width */
+            width: number;
         };
         /**
          * CameraFacet
@@ -2806,6 +3614,35 @@ export interface components {
             total: number;
         };
         /**
+         * DisplacementMap
+         * @description Figures over a grid of the frame, row by row.
+         */
+        DisplacementMap: {
+            /** Columns */
+            columns: number;
+            /**
+             * Lines
+             * @description Length of lines in the cell.
+             */
+            lines: (number | null)[][];
+            /** Rows */
+            rows: number;
+            /**
+             * Shift
+             * @description Length of the correction.
+             */
+            shift: (number | null)[][];
+            /**
+             * Sigma
+             * @description 95 % bound of its error.
+             */
+            sigma: (number | null)[][];
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
+        };
+        /**
          * DueImage
          * @description An image that you can begin a second review of.
          */
@@ -3074,6 +3911,34 @@ export interface components {
             name: string;
         };
         /**
+         * ExportOption
+         * @description Whether, and how exactly, a format holds the lens.
+         */
+        ExportOption: {
+            /** Allowed */
+            allowed: boolean;
+            error: components["schemas"]["FieldErrorAnswer"] | null;
+            /** File Name */
+            file_name: string;
+            /** Format */
+            format: string;
+            /** Model */
+            model: string | null;
+            /** Reason */
+            reason: string | null;
+            /** Title */
+            title: string;
+        };
+        /**
+         * ExportOverview
+         * @description The formats a lens can be written in.
+         */
+        ExportOverview: {
+            /** Formats */
+            formats: components["schemas"]["ExportOption"][];
+            intrinsics: components["schemas"]["IntrinsicsAnswer"];
+        };
+        /**
          * F1Grid
          * @description F1 over distances and thresholds, which ``mean_f1`` is the mean of.
          */
@@ -3138,6 +4003,79 @@ export interface components {
              * @description Log odds that it adds or takes; negative where more of it speaks against.
              */
             weight: number;
+        };
+        /**
+         * FieldErrorAnswer
+         * @description A difference over the frame.
+         */
+        FieldErrorAnswer: {
+            /** Maximum */
+            maximum: number;
+            /** Rms */
+            rms: number;
+        };
+        /**
+         * FocalAnswer
+         * @description Focal length and principal point of the undistorted image, or why they can't be told.
+         */
+        FocalAnswer: {
+            /** Focal Length */
+            focal_length: number | null;
+            /** Images */
+            images: number;
+            /** Observable */
+            observable: boolean;
+            /** Principal Point */
+            principal_point: [
+                number,
+                number
+            ] | null;
+            /** Principal Point Sigma */
+            principal_point_sigma: [
+                number,
+                number
+            ] | null;
+            /** Reason */
+            reason: string | null;
+            /** Sigma */
+            sigma: number | null;
+            /** Vanishing Points */
+            vanishing_points: components["schemas"]["VanishingPoint"][];
+        };
+        /**
+         * FreeModelAnswer
+         * @description What a smooth field on top of the lens would add: what the lens misses.
+         */
+        FreeModelAnswer: {
+            /** Columns */
+            columns: number;
+            /** Dx */
+            dx: (number | null)[][];
+            /** Dy */
+            dy: (number | null)[][];
+            /** Lines */
+            lines: number;
+            /** Needed */
+            needed: number;
+            /** Reason */
+            reason: string | null;
+            /** Rms */
+            rms: number | null;
+            /** Rows */
+            rows: number;
+            /** Sigma */
+            sigma: number | null;
+            /**
+             * Sigmas
+             * @description Standard deviation of its length at the same places.
+             */
+            sigmas: (number | null)[][];
+            /** Used */
+            used: boolean;
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
         };
         /**
          * GainEntry
@@ -3328,6 +4266,22 @@ export interface components {
             width: number;
         };
         /**
+         * ImageFit
+         * @description What an image gave.
+         */
+        ImageFit: {
+            /** Inliers */
+            inliers: number;
+            /** Left Out Shift */
+            left_out_shift: number | null;
+            /** Name */
+            name: string;
+            /** Rms */
+            rms: number | null;
+            /** Segments */
+            segments: number;
+        };
+        /**
          * ImageIds
          * @description Which images.
          * @example {
@@ -3341,6 +4295,55 @@ export interface components {
         ImageIds: {
             /** Ids */
             ids: number[];
+        };
+        /**
+         * ImageLine
+         * @description A line as measured and with the lens taken out; px, at most 33 points each.
+         */
+        ImageLine: {
+            /** Measured */
+            measured: [
+                number,
+                number
+            ][];
+            /** Probability */
+            probability: number;
+            /** Rms */
+            rms: number | null;
+            /** Segment Id */
+            segment_id: number;
+            /** Undistorted */
+            undistorted: [
+                number,
+                number
+            ][];
+        };
+        /**
+         * ImageLines
+         * @description The lines of one image, before and after, in pictures of the same size.
+         */
+        ImageLines: {
+            /** Height */
+            height: number;
+            /** Image Id */
+            image_id: number;
+            /** Lines */
+            lines: components["schemas"]["ImageLine"][];
+            /**
+             * Offset
+             * @description Place of the corrected image's origin in that picture, px.
+             */
+            offset: [
+                number,
+                number
+            ];
+            /**
+             * Scale
+             * @description px of the undistorted picture per px of the corrected image.
+             */
+            scale: number;
+            /** Width */
+            width: number;
         };
         /**
          * ImageName
@@ -3504,6 +4507,24 @@ export interface components {
             source?: string | null;
         };
         /**
+         * IntrinsicsAnswer
+         * @description Focal length and principal point that exports state.
+         */
+        IntrinsicsAnswer: {
+            /** Focal Length */
+            focal_length: number;
+            /** Principal Point */
+            principal_point: [
+                number,
+                number
+            ];
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "given" | "estimated" | "nominal";
+        };
+        /**
          * Join
          * @description A gap between two pieces that merging closed.
          */
@@ -3612,6 +4633,26 @@ export interface components {
             gone: string[];
         };
         /**
+         * LadderStep
+         * @description A model that was tried.
+         */
+        LadderStep: {
+            /** Accepted */
+            accepted: boolean;
+            /** Family */
+            family: string;
+            /** Held Out */
+            held_out: number | null;
+            /** Penalised */
+            penalised: number;
+            /** Pred */
+            pred: number | null;
+            /** Reason */
+            reason: string;
+            /** Released */
+            released: string[];
+        };
+        /**
          * LeaseAnswer
          * @description Who has an image open.
          */
@@ -3668,6 +4709,75 @@ export interface components {
             kappa: components["schemas"]["KappaAnswer"];
             /** Low */
             low: number;
+        };
+        /**
+         * LensAnswer
+         * @description A lens; parameters are for lengths in half diagonals from the image centre.
+         */
+        LensAnswer: {
+            /** Center */
+            center: [
+                number,
+                number
+            ];
+            /**
+             * Family
+             * @enum {string}
+             */
+            family: "brown" | "opencv" | "division";
+            /** Height */
+            height: number;
+            /** Names */
+            names: string[];
+            /** Parameters */
+            parameters: number[];
+            /**
+             * Scale
+             * @description Half the diagonal.
+             */
+            scale: number;
+            /** Width */
+            width: number;
+        };
+        /**
+         * LensDifference
+         * @description How far the lens is from the camera's reference, after the best homography; null where either folds.
+         */
+        LensDifference: {
+            /** Columns */
+            columns: number;
+            /** Dx */
+            dx: (number | null)[][];
+            /** Dy */
+            dy: (number | null)[][];
+            /** Inner Rms */
+            inner_rms: number;
+            /** Maximum */
+            maximum: number;
+            /** Rms */
+            rms: number;
+            /** Rows */
+            rows: number;
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
+        };
+        /**
+         * LensUncertainty
+         * @description How far off the lens may be, over the frame after the best homography.
+         */
+        LensUncertainty: {
+            /** Bound95 */
+            bound95: number;
+            /** Correction */
+            correction: number;
+            /** Effective Lines */
+            effective_lines: number;
+            /** Jackknife */
+            jackknife: number | null;
+            /** Pred */
+            pred: number;
         };
         /**
          * Limits
@@ -5612,6 +6722,22 @@ export interface components {
             warnings: string[];
         };
         /**
+         * VanishingPoint
+         * @description A direction that lines of an image share, unit length in camera coordinates.
+         */
+        VanishingPoint: {
+            /** Direction */
+            direction: [
+                number,
+                number,
+                number
+            ];
+            /** Image */
+            image: string;
+            /** Lines */
+            lines: number;
+        };
+        /**
          * VerdictCounts
          * @description Current candidates by verdict.
          */
@@ -5701,6 +6827,1062 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    read_calibration_api_calibrations__calibration_id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    delete_calibration_api_calibrations__calibration_id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Deleted"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_advice_api_calibrations__calibration_id__advice_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Advice"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    cancel_calibration_api_calibrations__calibration_id__cancel_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationBrief"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_difference_api_calibrations__calibration_id__difference_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LensDifference"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_exports_api_calibrations__calibration_id__exports_get: {
+        parameters: {
+            query?: {
+                /** @description px; else the estimated or a nominal one. */
+                focal_length?: number | null;
+                /** @description Of the principal point, px. */
+                cx?: number | null;
+                /** @description Of the principal point, px. */
+                cy?: number | null;
+            };
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExportOverview"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    export_calibration_api_calibrations__calibration_id__exports__format__get: {
+        parameters: {
+            query?: {
+                /** @description px; else the estimated or a nominal one. */
+                focal_length?: number | null;
+                /** @description Of the principal point, px. */
+                cx?: number | null;
+                /** @description Of the principal point, px. */
+                cy?: number | null;
+            };
+            header?: never;
+            path: {
+                calibration_id: number;
+                format: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/*": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_calibration_images_api_calibrations__calibration_id__images_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationImage"][];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_image_lines_api_calibrations__calibration_id__images__image_id__lines_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImageLines"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_undistorted_api_calibrations__calibration_id__images__image_id__undistorted_get: {
+        parameters: {
+            query?: {
+                /** @description The whole corrected frame, in the image's size. */
+                scale?: "fit";
+            };
+            header?: {
+                "if-none-match"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+                image_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/jpeg": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_calibration_lines_api_calibrations__calibration_id__lines_get: {
+        parameters: {
+            query?: {
+                order?: "residual" | "length" | "image";
+                /** @description At most this many. */
+                limit?: number;
+                /** @description From ``next_cursor`` of the page before. */
+                cursor?: string | null;
+            };
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationLinePage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_report_api_calibrations__calibration_id__report_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    restore_calibration_api_calibrations__calibration_id__restore_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationBrief"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    read_camera_api_cameras__camera_id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                camera_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CameraDetail"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
     change_camera_api_cameras__camera_id__patch: {
         parameters: {
             query?: never;
@@ -5757,6 +7939,226 @@ export interface operations {
             };
             /** @description Conflict */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    list_calibrations_api_cameras__camera_id__calibrations_get: {
+        parameters: {
+            query?: {
+                deleted?: boolean;
+                /** @description At most this many. */
+                limit?: number;
+                /** @description From ``next_cursor`` of the page before. */
+                cursor?: string | null;
+            };
+            header?: never;
+            path: {
+                camera_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationPage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    start_calibration_api_cameras__camera_id__calibrations_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                camera_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CalibrationGiven"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationBrief"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+        };
+    };
+    upload_reference_api_cameras__camera_id__reference_file_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                camera_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_upload_reference_api_cameras__camera_id__reference_file_post"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CameraAnswer"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                    "application/problem+json": unknown;
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -49,13 +49,18 @@ def other_line(row: int) -> list[list[float]]:
     return [[5 + 3 * row, 5 + row / 2], [50 + 3 * row, 6 + row / 2]]
 
 
+def traced(first: list[float], last: list[float], count: int = 12) -> list[list[float]]:
+    """Points along a line."""
+    return np.linspace(first, last, count).tolist()
+
+
 def label_file(*, marked: bool) -> bytes:
     """Labels as a file: with the marks, or harmless ones."""
     x, y, u, v, s, t = MARKS if marked else (20.0, 30.0, 40.0, 50.0, 60.0, 70.0)
     count = LABELS if marked else 3
     lines = [
-        [[x, y], [x + 60, y + 1]],
-        *([[[5 + row, 5 + row / 2], [50 + row, 6 + row / 2]] for row in range(count - 1)]),
+        *(traced([x, y + step], [x + 60, y + step + 1]) for step in range(3)),  # calibrations read no pair of points
+        *([[5 + row, 5 + row / 2], [50 + row, 6 + row / 2]] for row in range(count - 3)),
     ]
     segments = [{"points": points, "verdict": "keep"} for points in lines]
     segments.append({"points": [[s, t], [s + 60, t + 1]], "verdict": "reject", "reason": "shadow"})
@@ -124,6 +129,17 @@ def submit(world: World, split: str, method: str, *, role: str = "submitter") ->
     return number
 
 
+def calibrate(world: World, camera: int) -> int:
+    """Have a camera calibrated and wait for it."""
+    number = world.made("POST", f"/api/cameras/{camera}/calibrations", json={"family": "brown"})["id"]
+    deadline = time.monotonic() + 60
+    while (state := world.made("GET", f"/api/calibrations/{number}"))["status"] != "done":
+        assert state["status"] in ("queued", "running"), state
+        assert time.monotonic() < deadline, state
+        time.sleep(0.05)
+    return number
+
+
 @pytest.fixture(scope="module")
 def world(tmp_path_factory: pytest.TempPathFactory) -> Iterator[World]:
     """Datasets `secret` (hidden split), `copy` (the same image, no labels), `street` (open split), and submissions."""
@@ -163,6 +179,7 @@ def fill(world: World) -> None:
     cameras = [
         camera["id"] for slug in ("secret", "street") for camera in world.made("GET", f"/api/datasets/{slug}/cameras")
     ]
+    calibrations = [calibrate(world, camera) for camera in cameras]
     split_images = [
         image["id"] for slug in ("hidden", "open") for image in world.made("GET", f"/api/splits/{slug}/images")["items"]
     ]
@@ -181,6 +198,7 @@ def fill(world: World) -> None:
         "second_review_id": second_reviews,
         "camera_id": cameras,
         "camera": cameras,
+        "calibration_id": calibrations,
         "split_image_id": split_images,
         "submission_id": submissions,
         "other": submissions,
@@ -188,7 +206,7 @@ def fill(world: World) -> None:
         "version": [1],
         "status": ["done", "scored"],
         "search": ["one"],
-        "format": ["npz", "json", "clearlines", "coco", "cvat", "datumaro", "labelme", "geojson", "csv"],
+        "format": ["npz", "json", "clearlines", "coco", "cvat", "datumaro", "labelme", "geojson", "csv", "ros"],
         "sort": ["name", "-name", "f1", "-f1", "fn", "tp"],
         "protocol": ["clearlines-v2", "official-v1", "official-v1-fixed"],
         "source": ["a"],

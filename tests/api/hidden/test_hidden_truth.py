@@ -28,6 +28,10 @@ CONTROL = (
     "/api/datasets/{slug}/export",
     "/api/splits/{split}",
     "/api/splits/{split}/truth",
+    "/api/cameras/{camera_id}",
+    "/api/calibrations/{calibration_id}",
+    "/api/calibrations/{calibration_id}/images",
+    "/api/calibrations/{calibration_id}/images/{image_id}/lines",
     "/api/submissions/{submission_id}/images/{split_image_id}/points",
     "/api/submissions/{submission_id}/images/{split_image_id}/overlay.png",
 )
@@ -170,6 +174,7 @@ def test_what_is_concealed_is_not_there(role: str, world: Any) -> None:
         "image_id": world.ids["image_id"][:3],
         **{name: world.ids[name] for name in ("segment_id", "run_id")},
         "camera_id": world.ids["camera_id"][:1],
+        "calibration_id": world.ids["calibration_id"][:1],
         "second_review_id": world.ids["second_review_id"][:1],
     }
     wrong: list[str] = []

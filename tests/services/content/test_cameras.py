@@ -6,7 +6,8 @@ import pytest
 
 from app.db.models import Image, Run
 from app.errors import Conflict, InvalidInput, NotFound
-from app.services.cameras import camera_entry, get_camera, list_cameras, rename_camera, set_reference
+from app.services.camera_references import set_reference
+from app.services.cameras import camera_entry, get_camera, list_cameras, rename_camera
 from app.services.datasets import delete_dataset
 from app.services.events import list_events
 from app.services.images import delete_images
