@@ -25,6 +25,10 @@ export function makeRouter() {
           lazy: async () => ({ Component: (await import("../pages/label/label_page")).LabelPage }),
         },
         {
+          path: "/datasets/:slug/cameras/:cameraId",
+          lazy: async () => ({ Component: (await import("../pages/camera/camera_page")).CameraPage }),
+        },
+        {
           path: "/datasets/:slug/finished",
           lazy: async () => ({ Component: (await import("../pages/label/finished_page")).FinishedPage }),
         },

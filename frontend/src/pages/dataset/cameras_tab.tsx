@@ -11,9 +11,13 @@ import { Ellipsis } from "../../design/ellipsis";
 import { formatCount, formatQuantity, sentence } from "../../design/format";
 import { InlineEdit } from "../../design/inline_edit";
 import { EmptyState, ErrorState } from "../../design/states";
+import { CalibrationNote } from "./calibration_note";
 import { type LensEstimate, largestShift, readEstimate } from "./lens";
 import { LensPlot } from "./lens_plot";
 import "./cameras.css";
+
+/** So many cards ask for their latest calibration; on a longer list it is on the cameras' own pages. */
+const SUMMARISED = 24;
 
 /** The lens of each camera, as far as it is known. */
 export function CamerasTab({ slug }: { slug: string }) {
@@ -31,14 +35,20 @@ export function CamerasTab({ slug }: { slug: string }) {
   }
   return (
     <ul className="cameras-tab">
-      {cameras.data.map((camera) => (
-        <CameraCard key={camera.id} slug={slug} camera={camera} />
+      {cameras.data.map((camera, place) => (
+        <CameraCard key={camera.id} slug={slug} camera={camera} summarised={place < SUMMARISED} />
       ))}
     </ul>
   );
 }
 
-function CameraCard({ slug, camera }: { slug: string; camera: Camera }) {
+interface CameraCardProps {
+  slug: string;
+  camera: Camera;
+  summarised: boolean;
+}
+
+function CameraCard({ slug, camera, summarised }: CameraCardProps) {
   const estimate = readEstimate(camera.estimate);
   return (
     <li className="camera-card card">
@@ -47,6 +57,7 @@ function CameraCard({ slug, camera }: { slug: string; camera: Camera }) {
         {camera.width} × {camera.height} px ·{" "}
         <Link to={`?camera=${camera.id}`}>{formatQuantity(camera.images, "image")}</Link>
       </p>
+      {summarised ? <CalibrationNote slug={slug} camera={camera} /> : null}
       {estimate ? (
         <Estimate estimate={estimate} />
       ) : (
@@ -79,7 +90,9 @@ function CameraName({ slug, camera }: { slug: string; camera: Camera }) {
   return (
     <div className="camera-card__title">
       <h2>
-        <Ellipsis text={camera.name} />
+        <Link className="camera-card__link" to={`/datasets/${slug}/cameras/${camera.id}`}>
+          <Ellipsis text={camera.name} />
+        </Link>
       </h2>
       {maintain ? (
         <IconButton small icon="pencil" label="Rename" side="end" onClick={() => setRenaming(true)} />
