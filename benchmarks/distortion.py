@@ -4,7 +4,8 @@ python benchmarks/distortion.py [--json] [--york DIR] [--kitti DIR] [--carnd DIR
 
 Field errors are px RMS over the frame, after the best homography. "Identity" is no correction, "MSAC" the estimate as
 in the paper; both are over all cameras, ours over the accepted ones. A photo of the York set carries about 1.3 px of
-barrel distortion of its own beneath the lens that it is compared with.
+barrel distortion of its own beneath the lens that it is compared with. Lenses from reviewed lines, and other tools
+beside them, are measured by reviewed_lens.py.
 """
 
 from __future__ import annotations

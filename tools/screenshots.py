@@ -106,6 +106,23 @@ def take_all(browser: Browser, slug: str) -> None:
     take(open_page(browser, "/docs/api"), "api")
     review_twice(slug, images[6:10])
     take(open_page(browser, f"/datasets/{slug}?tab=team"), "team")
+    take_camera(browser, slug)
+
+
+def take_camera(browser: Browser, slug: str) -> None:
+    """Calibrate the camera with the most images from what was kept of them."""
+    camera = max(get(f"/datasets/{slug}/cameras"), key=lambda each: each["images"])["id"]
+    calibration = ask("POST", f"/cameras/{camera}/calibrations", {"source": "labels"})["id"]
+    deadline = time.monotonic() + 300
+    while (status := get(f"/calibrations/{calibration}")["status"]) in {"queued", "running"}:
+        if time.monotonic() > deadline:
+            raise SystemExit("the calibration didn't get ready")
+        time.sleep(0.5)
+    if status != "done":
+        raise SystemExit(f"the calibration is {status}")
+    path = f"/datasets/{slug}/cameras/{camera}"
+    take(open_page(browser, path), "camera")
+    take(open_page(browser, f"{path}?tab=maps"), "camera-maps")
 
 
 def review_twice(slug: str, images: list[dict[str, Any]]) -> None:

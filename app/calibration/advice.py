@@ -17,7 +17,14 @@ from app.calibration.calibration import Calibration
 from app.calibration.lens import CameraLens
 from app.calibration.lens_solver import judged
 from app.calibration.line_noise import UNKNOWN, LineNoise, variances
-from app.calibration.observations import SHORTEST, LabelledImage, LineObservations, Observed, observe
+from app.calibration.observations import (
+    SHORTEST,
+    LabelledImage,
+    LineObservations,
+    Observed,
+    observe,
+    observe_distinct,
+)
 from app.calibration.posterior import extended_slopes, field_sensitivity, lens_posterior, observable_fields
 from app.calibration.priors import BEYOND_SD, prior_sd
 from app.vision.frame import frame_grid
@@ -29,7 +36,8 @@ MOST_CELLS = 5
 APART = 4
 """Cells that two pieces of advice are apart at least."""
 LINES, LENGTH, SHARE = 5, 150.0, 0.8
-"""What is proposed: so many lines, so many px long, of the shorter side at most so much, in directions spread evenly."""
+"""What is proposed: so many lines, so many px long, but no longer than a share of the shorter side, in directions
+spread evenly."""
 USUAL_NOISE = LineNoise(3.0, 0.03, 5.0)
 """Law of lines that aren't there yet."""
 
@@ -50,7 +58,7 @@ def advice(calibration: Calibration, images: Sequence[LabelledImage]) -> list[di
     if SHARE * min(lens.width, lens.height) < 2 * SHORTEST:
         return []
     rows, columns = shown.sigma.shape
-    observed = observe(images, lens.width, lens.height)
+    observed = observe_distinct(images, lens.width, lens.height)
     posterior = lens_posterior(observed, judged(observed, lens, calibration.released))
     covariance = posterior.covariance[int(np.argmax(posterior.weight))]
     told = _information(_proposed(lens, shown.x, shown.y, calibration.noise), lens).reshape(

@@ -22,7 +22,7 @@ from app.calibration.lens import FAMILY_NAMES, CameraLens, Family
 from app.calibration.lens_solver import start_lens
 from app.calibration.line_noise import believed_roughness
 from app.calibration.line_results import STRAIGHT, image_fits, line_residuals, weighed
-from app.calibration.observations import LineObservations, observe
+from app.calibration.observations import LineObservations, observe_distinct
 from app.calibration.posterior import LensPosterior, field_sensitivity, lens_posterior
 from app.errors import InvalidInput
 from app.vision.conversion import refit_brown
@@ -84,7 +84,7 @@ def calibrate(
         raise InvalidInput("no image", where="images", expected="at least one")
     told = watch or _unwatched
     told("fitting", 0, 1)
-    observed = observe(images, width, height)
+    observed = observe_distinct(images, width, height)
     told("fitting", 1, 1)
     climbed = _best_family(observed, family, (width, height), told)
     solved = climbed.solved

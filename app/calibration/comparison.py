@@ -28,6 +28,8 @@ ARRIVED = 0.1
 """px from the measured point at which a corrected one, distorted again, counts as its correction."""
 LEAST_SEEN = 0.5
 """Part of the frame that both lenses must correct to be compared."""
+MOST_STRETCH = 10.0
+"""How much larger or smaller than the frame a corrected image may be; px of a smaller one would hide any difference."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,12 +131,12 @@ def compare(lens: Lens, reference: Lens, width: int, height: int) -> Difference:
         height: Image height in px.
 
     Raises:
-        InvalidInput: If either of them can't correct half of the frame.
+        InvalidInput: If either of them can't correct half of the frame, or makes another size of it altogether.
     """
     grid = frame_grid(width, height, COLUMNS)
     ours, theirs = lens.undistort(grid), reference.undistort(grid)
     for name, corrected in (("lens", ours), ("reference", theirs)):
-        _require_seen(corrected, name, width, height)
+        _require_seen(grid, corrected, name, width, height)
     seen = _is_usable(ours, width, height) & _is_usable(theirs, width, height)
     shift = np.full(grid.shape, np.nan)
     shift[seen] = apply_homography(best_homography(ours[seen], theirs[seen]), ours[seen]) - theirs[seen]
@@ -149,11 +151,23 @@ def _is_usable(corrected: ArrayLike, width: int, height: int) -> NDArray[np.bool
     return np.asarray((offset < 100 * max(width, height)).all(axis=1))  # NaN is less than nothing
 
 
-def _require_seen(corrected: Array, name: str, width: int, height: int) -> None:
-    if _is_usable(corrected, width, height).mean() < LEAST_SEEN:
+def _require_seen(grid: Array, corrected: Array, name: str, width: int, height: int) -> None:
+    usable = _is_usable(corrected, width, height)
+    if usable.mean() < LEAST_SEEN:
         raise InvalidInput(
             "it can't be undone on most of the frame", where=name, hint="is it for images of this size, in pixels?"
         )
+    stretch = _spread(corrected[usable]) / _spread(grid[usable])
+    if not 1 / MOST_STRETCH <= stretch <= MOST_STRETCH:
+        raise InvalidInput(
+            f"its corrected image is {stretch:.2g} times as large as the measured one",
+            where=name,
+            hint="are its numbers those of this camera, in pixels?",
+        )
+
+
+def _spread(points: Array) -> float:
+    return float(np.sqrt(points.var(axis=0).sum()))
 
 
 def _rms(distance: Array) -> float:

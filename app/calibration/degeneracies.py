@@ -25,6 +25,8 @@ ONE_SIDED = 0.92
 """Share of the lines on one side of the centre."""
 DISAGREEING = 2.0
 """Ratio of the jackknife's error to the expected one."""
+MOST_OF_ONE = 0.8
+"""Share of all that the lines tell from which one image's lines tell nearly all of it."""
 WEAK = 0.7
 """Share of its prior's standard deviation that is left of a coefficient that lines hardly tell."""
 
@@ -50,7 +52,9 @@ def warnings_of(
         found.append(
             Warned("weak-higher-terms", f"{' and '.join(weak)} can hardly be told: lines near the corners are missing")
         )
-    if uncertainty.jackknife is not None and uncertainty.jackknife > DISAGREEING * uncertainty.pred:
+    of_image = np.bincount(observed.image, posterior.information)
+    alike = of_image.max() < MOST_OF_ONE * of_image.sum()  # without the image that tells nearly all, nothing is left
+    if alike and uncertainty.jackknife is not None and uncertainty.jackknife > DISAGREEING * uncertainty.pred:
         found.append(
             Warned(
                 "disagreeing-images",
@@ -74,7 +78,7 @@ def warnings_of_left_out(unusable: LeftOut, width: int, height: int) -> list[War
 def outside_frame(unusable: LeftOut, width: int, height: int) -> str:
     """Say how many lines leave the frame."""
     leaving, number = int(unusable.outside.sum()), len(unusable.outside)
-    return f"{leaving} of {number} lines leave the frame: are the images of {width} x {height} px?"
+    return f"{leaving} of {number} lines leave the frame, as if the images weren't of {width} x {height} px"
 
 
 def warnings_of_size(uncertainty: CalibrationUncertainty) -> list[Warned]:
@@ -85,7 +89,7 @@ def warnings_of_size(uncertainty: CalibrationUncertainty) -> list[Warned]:
         Warned(
             "within-noise",
             f"the correction of {uncertainty.correction:.2g} px is within its own error, up to "
-            f"{uncertainty.bound95:.2g} px: no distortion can be told from none",
+            f"{uncertainty.bound95:.2g} px: it can't be told from no distortion at all",
         )
     ]
 

@@ -48,17 +48,28 @@ def left_out(images: Sequence[HasSegments], width: int, height: int) -> LeftOut:
         width: Image width in px.
         height: Image height in px.
     """
+    return LeftOut(outside_frame(images, width, height), copies(images))
+
+
+def outside_frame(images: Sequence[HasSegments], width: int, height: int) -> NDArray[np.bool_]:
+    """Tell which lines have a point outside the frame, ``(S,)``; arguments as of `left_out`."""
     beyond = BEYOND * half_diagonal(width, height)
     low, high = np.array([-beyond, -beyond]), np.array([width - 1 + beyond, height - 1 + beyond])
-    outside = [np.zeros(0, np.bool_)]
-    copies: list[bool] = []
-    seen: set[bytes] = set()
+    found = [np.zeros(0, np.bool_)]
     for image in images:
         segments = image.segments
         beside = ((segments.points < low) | (segments.points > high)).any(axis=1)
-        outside.append(np.bincount(segments.segment_of_point, beside, len(segments)) > 0)
-        for line in segments:
+        found.append(np.bincount(segments.segment_of_point, beside, len(segments)) > 0)
+    return np.concatenate(found)
+
+
+def copies(images: Sequence[HasSegments]) -> NDArray[np.bool_]:
+    """Tell which lines have the same points as an earlier one, of whichever image, ``(S,)``."""
+    found: list[bool] = []
+    seen: set[bytes] = set()
+    for image in images:
+        for line in image.segments:
             content = line.tobytes()
-            copies.append(content in seen)
+            found.append(content in seen)
             seen.add(content)
-    return LeftOut(np.concatenate(outside), np.array(copies, np.bool_))
+    return np.array(found, np.bool_)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 from numpy.typing import ArrayLike, NDArray
 
-from app.calibration.left_out import left_out
+from app.calibration.left_out import copies, outside_frame
 from app.vision.frame import center_of, half_diagonal
 from app.vision.segments import Segments
 
@@ -112,7 +112,7 @@ def observe(images: Sequence[LabelledImage], width: int, height: int) -> LineObs
     """Bin the lines of one camera's images.
 
     Left out are lines of fewer than 4 points or filled bins, shorter ones than 8 px, those that are held impossible
-    (probability 0), those that leave the frame, and copies of others.
+    (probability 0), and those that leave the frame.
 
     Args:
         images: Of the camera.
@@ -123,9 +123,9 @@ def observe(images: Sequence[LabelledImage], width: int, height: int) -> LineObs
     number = len(counts)
     scale = half_diagonal(width, height)
     points = np.concatenate([np.zeros((0, 2)), *(image.segments.points for image in images)])
-    unusable = left_out(images, width, height)
+    outside = outside_frame(images, width, height)
     # what leaves the frame may be any number of px away, too far to be squared
-    points = np.where(np.repeat(unusable.outside, counts)[:, None], 0.0, points - center_of(width, height))
+    points = np.where(np.repeat(outside, counts)[:, None], 0.0, points - center_of(width, height))
     of_point, ends = np.repeat(np.arange(number), counts), np.cumsum(counts)
 
     first = points[ends - counts]
@@ -178,8 +178,14 @@ def observe(images: Sequence[LabelledImage], width: int, height: int) -> LineObs
         scale=scale,
     )
     usable = (counts >= FEWEST_FILLED) & (filled_bins >= FEWEST_FILLED)
-    usable &= ~unusable.outside & ~unusable.copy
-    return observations.select(usable & (length >= SHORTEST) & (observations.probability > 0))
+    return observations.select(usable & ~outside & (length >= SHORTEST) & (observations.probability > 0))
+
+
+def observe_distinct(images: Sequence[LabelledImage], width: int, height: int) -> LineObservations:
+    """Bin the lines of one camera's images as `observe` does, without copies of others."""
+    observed = observe(images, width, height)
+    first = np.cumsum([0, *(len(image.segments) for image in images)])
+    return observed.select(~copies(images)[first[observed.image] + observed.index])
 
 
 def structures_of(lines: LineObservations) -> NDArray[np.int64]:

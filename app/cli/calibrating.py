@@ -56,8 +56,8 @@ def calibrate(
     from app.commands.reports import print_failed
     from app.commands.whole_files import json_bytes, write_whole
 
-    require_outputs_possible(output, report, json_file)
     choice = CalibrateChoice(chosen, focal_length, tuple(export or ()), reference, seed)
+    require_outputs_possible(output, report, json_file, choice.exports)
     with progress_bar("Reading lines") as progress:
         gathered = gather_lines(
             paths, labels=labels, size=image_size, camera=camera, workers=workers or os.cpu_count() or 1,

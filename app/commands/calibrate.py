@@ -77,7 +77,7 @@ class CalibratedCamera:
     @cached_property
     def options(self) -> tuple[ExportOption, ...]:
         """How exactly each format holds the lens."""
-        return tuple(overview(self.calibration.lens, self.intrinsics))
+        return tuple(overview(self.calibration.lens, self.intrinsics, calibration=self.calibration.as_dict()))
 
     @property
     def done(self) -> bool:

@@ -17,12 +17,15 @@ from app.commands.whole_files import write_whole
 from app.errors import InvalidInput
 
 
-def require_outputs_possible(output: Path | None, report: Path | None, json: Path | None) -> None:
+def require_outputs_possible(
+    output: Path | None, report: Path | None, json: Path | None, exports: Sequence[str] = ()
+) -> None:
     """Refuse places that no file can be written to, before anything is computed.
 
     Raises:
         InvalidInput: If a folder is where a file is to be written, or a file where a folder is needed.
     """
+    _require_one_file_each(output, len(exports))
     for option, path in (("--report", report), ("--json", json)):
         if path is not None and path.is_dir():
             raise InvalidInput("a folder is where a file is to be written", where=f"{option} {path}", expected="a file")
@@ -42,9 +45,8 @@ def write_exports(cameras: Sequence[CalibratedCamera], output: Path | None) -> l
     files = [(camera, exported) for camera in cameras for exported in camera.exported.values()]
     if not files:
         return []
-    if output is not None and not output.is_dir() and output.suffix:
-        if len(files) > 1:
-            raise InvalidInput(f"{len(files)} files can't be written into one", where=str(output), expected="a folder")
+    _require_one_file_each(output, len(files))
+    if output is not None and _is_one_file(output):
         write_whole(output, files[0][1].content)
         return [output]
     stems = _stems(cameras)
@@ -55,6 +57,16 @@ def write_exports(cameras: Sequence[CalibratedCamera], output: Path | None) -> l
         write_whole(path, exported.content)
         written.append(path)
     return written
+
+
+def _require_one_file_each(output: Path | None, files: int) -> None:
+    if output is not None and files > 1 and _is_one_file(output):
+        raise InvalidInput(f"{files} files can't be written into one", where=str(output), expected="a folder")
+
+
+def _is_one_file(output: Path) -> bool:
+    """Tell a file from a folder by what is there, else by whether its name has an ending."""
+    return output.is_file() or (bool(output.suffix) and not output.is_dir())
 
 
 def write_reports(cameras: Sequence[CalibratedCamera], path: Path, *, created: datetime) -> list[Path]:

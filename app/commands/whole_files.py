@@ -17,10 +17,10 @@ def write_whole(path: Path, data: bytes) -> None:
     Raises:
         OSError: If the folder can't be made or written to.
     """
-    place = path.resolve()
-    if place.exists() and not place.is_file():
-        place.write_bytes(data)
+    if path.exists() and not path.is_file():
+        path.write_bytes(data)
         return
+    place = path.resolve()
     place.parent.mkdir(parents=True, exist_ok=True)
     temporary = place.with_name(f".{uuid4().hex}.tmp")
     try:

@@ -74,7 +74,7 @@ def report_task(inputs: ReportInputs, max_pixels: int) -> bytes:
 
 
 def _difference(lens: CameraLens, reference: ReferenceCamera) -> Difference | None:
-    """Return how far a lens is from a reference; nothing where that is beyond comparing, which is no fault of the lens."""
+    """Return how far a lens is from a reference; nothing where that one is beyond comparing."""
     try:
         return difference_to(lens, reference)
     except InvalidInput:

@@ -66,13 +66,13 @@ class CalibrationWork:
         """See ``Work``."""
         with stores.database.write() as session:
             store_calibration(session, self.claim, result, now)
-        self.notes(stores).discard()
+        self._discard_notes(stores)
 
     def fail(self, stores: Stores, error: dict[str, Any], now: datetime) -> None:
         """See ``Work``."""
         with stores.database.write() as session:
             fail_calibration(session, self.claim, error, now)
-        self.notes(stores).discard()
+        self._discard_notes(stores)
 
     def again(self, stores: Stores, now: datetime) -> Work | None:
         """See ``Work``."""
@@ -89,7 +89,15 @@ class CalibrationWork:
 
     def notes(self, stores: Stores) -> TaskNotes:
         """Return the notes of this attempt."""
-        return TaskNotes(stores.notes / f"calibration-{self.claim.calibration_id}-{self.claim.attempts}")
+        return self._notes_of(stores, self.attempts)
+
+    def _discard_notes(self, stores: Stores) -> None:
+        """Remove this attempt's notes, and those of attempts that ended with the server."""
+        for attempt in range(1, self.attempts + 1):
+            self._notes_of(stores, attempt).discard()
+
+    def _notes_of(self, stores: Stores, attempt: int) -> TaskNotes:
+        return TaskNotes(stores.notes / f"calibration-{self.claim.calibration_id}-{attempt}")
 
 
 def take_calibration(flight: Flight, database: Database, now: datetime) -> None:

@@ -93,3 +93,10 @@ def test_a_reference_is_nan_where_no_ray_leads_to() -> None:
     for D in ([0.1], [np.nan] * 5, []):
         with pytest.raises(InvalidInput):
             ReferenceLens(K, D)
+
+
+@pytest.mark.parametrize("k1", [1e6, 1e11])
+def test_a_reference_that_shrinks_the_frame_to_nothing_agrees_with_no_lens(k1: float) -> None:
+    lens = ReferenceLens([[900, 0, 640], [0, 900, 360], [0, 0, 1]], [k1, 0, 0, 0, 0])
+    with pytest.raises(InvalidInput, match="times as large as the measured one"):
+        compare(CameraLens.identity("brown", 1280, 720), lens, 1280, 720)

@@ -72,3 +72,8 @@ def test_bound_falls_with_lines_and_rises_with_parameters(lines_through):
     assert bound < least_field_error(LENS, ["k1"], few, 0.1)
     assert bound < least_field_error(LENS, ["k1", "k2", "cx", "cy"], images, 0.1)
     assert least_field_error(LENS, ["k1"], images, 0.2) == pytest.approx(2 * bound)
+
+
+def test_an_image_that_tells_nearly_all_is_no_disagreement(lines_through):
+    many, few = lines_through(LENS, 300, images=1), lines_through(LENS, 2, images=1, seed=9)
+    assert "disagreeing-images" not in codes(calibrate([*many, *few], SIZE, family="division"))

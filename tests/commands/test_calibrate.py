@@ -164,7 +164,10 @@ def test_too_little_is_said_and_nothing_is_exported(clearlines: Any, tmp_path: P
     folder = tmp_path / "lines"
     folder.mkdir()
     (folder / "a.npz").write_bytes(write_npz(LabelledSegments(straight_lines(1, 2))))
-    done = clearlines("calibrate", folder, "--size", "640x480", "--export", "ros", "--family", "brown", status=1)
+    arguments = ("--size", "640x480", "--export", "ros", "--family", "brown", "--json", "-")
+    done = clearlines("calibrate", folder, *arguments, status=1)
+    exports = json.loads(done.stdout)["cameras"][0]["exports"]
+    assert [each["format"] for each in exports if each["allowed"]] == ["clearlines"]
     assert "not accepted: not enough information: 2 usable lines" in done.stderr
     assert "not exported: ros" in done.stderr
     assert sorted(path.name for path in tmp_path.iterdir()) == ["lines"]
@@ -185,6 +188,8 @@ def test_too_little_is_said_and_nothing_is_exported(clearlines: Any, tmp_path: P
         (["town", "--focal-length", "0"], "focal length"),
         (["town", "--report", "town"], "a folder is where a file"),
         (["town", "--output", "town/images.csv/x"], "a file is where a folder"),
+        (["town", "--export", "ros", "--export", "mrcal", "--output", "all.yaml"], "2 files can't be written into one"),
+        (["town", "--export", "ros", "--export", "mrcal", "--output", "town/images.csv"], "2 files can't be written"),
         (["void"], "neither an image nor a file of segments"),
     ],
 )

@@ -40,6 +40,16 @@ def test_a_pipe_is_written_into(tmp_path: Path) -> None:
     assert pipe.is_fifo()
 
 
+def test_what_the_process_has_open_is_written_into() -> None:
+    read, write = os.pipe()
+    try:
+        write_whole(Path(f"/dev/fd/{write}"), b"content")
+        assert os.read(read, 100) == b"content"
+    finally:
+        os.close(read)
+        os.close(write)
+
+
 def test_a_folder_is_no_place(tmp_path: Path) -> None:
     with pytest.raises(IsADirectoryError):
         write_whole(tmp_path, b"")

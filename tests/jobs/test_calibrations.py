@@ -129,6 +129,7 @@ def test_a_killed_server_finishes_it_once_after_its_restart(small_yard, eventual
         assert server.wait(60) == 0
     row = row_of(yard, calibration)
     assert (row.status, row.attempts, row.error) == ("done", 2, None)
+    assert notes_left(yard) == []
     assert row.result is not None
     assert row.result["counts"]["images"] == row.n_images == 2
     lines = lines_of(row)

@@ -100,7 +100,9 @@ def report_html(
         free=calibration.free,
         difference=difference,
         reference_name=reference_name,
-        exports=export_rows(overview(lens, chosen) if options is None else options),
+        exports=export_rows(
+            overview(lens, chosen, calibration=calibration.as_dict()) if options is None else options
+        ),
         pictures=pictures,
         figures={name: _trusted(svg) for name, svg in figures.items()},
         style=_trusted((TEMPLATES / "report.css").read_text(encoding="utf-8")),
