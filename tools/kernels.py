@@ -1,8 +1,8 @@
 """Look after the C kernels: ``tools/kernels.py warnings`` and ``tools/kernels.py sanitize [pytest's arguments]``.
 
 ``warnings`` compiles them with every warning an error, which an installation on somebody's machine never does.
-``sanitize`` runs the detector's tests with kernels in which gcc checks each memory access and each operation whose
-result C leaves undefined.
+``sanitize`` runs the detector's and the painter's tests with kernels in which gcc checks each memory access and each
+operation whose result C leaves undefined.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from build_native import CompileError, build_library, find_compiler, library_nam
 
 STRICT = ("-Werror", "-Wpedantic", "-Wshadow", "-Wstrict-prototypes", "-Wvla")
 SANITIZERS = ("-O1", "-g", "-fno-omit-frame-pointer", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+TESTS = ("tests/vision", "tests/synthesis/test_painting.py")
 LOADED = """
 import sys
 import numpy as np
@@ -51,7 +52,7 @@ def sanitizer_runtime() -> Path:
 
 
 def run_sanitized(folder: Path, arguments: list[str]) -> int:
-    """Run the detector's tests, after a look whether they would use the library made for them; return the status."""
+    """Run the kernels' tests, after a look whether they would use the library made for them; return the status."""
     runtime = sanitizer_runtime()
     library = build_library(ROOT, output=folder / library_name(), flags=SANITIZERS)
     environment = {
@@ -66,7 +67,7 @@ def run_sanitized(folder: Path, arguments: list[str]) -> int:
     if loaded.returncode != 0:
         print(f"detect() failed, or did not load what CLEARLINES_KERNELS names: {library}", file=sys.stderr)
         return 1
-    tests = [sys.executable, "-m", "pytest", "tests/vision", "-q", *arguments]
+    tests = [sys.executable, "-m", "pytest", *TESTS, "-q", *arguments]
     return subprocess.run(tests, cwd=ROOT, env=environment).returncode
 
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 Points = NDArray[np.float64]
 Colours = NDArray[np.float32]
 Mode = Literal["paint", "shadow"]
+_UP = np.array([0.0, -1.0, 0.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +103,9 @@ class Drawing:
         corners = corners[None] if corners.ndim == 2 else corners
         if not len(corners):
             return
-        colours = np.broadcast_to(np.asarray(colours, np.float32), (len(corners), 3))
-        self.batches.append(Batch(corners, colours, textures, opacity, margin, "paint"))
+        tones = np.empty((len(corners), 3), np.float32)
+        tones[:] = colours
+        self.batches.append(Batch(corners, tones, textures, opacity, margin, "paint"))
         if kind is not None:
             self.outline(corners, kind)
 
@@ -194,14 +196,13 @@ class Panel:
 
     def point(self, u: ArrayLike, v: ArrayLike, out: ArrayLike = 0.0) -> Points:
         """The street point at (u, v), pushed out of the plane by `out` m; broadcasts to ``(..., 3)``."""
-        u, v, out = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float), np.asarray(out, float))
-        up = np.array([0.0, -1.0, 0.0])
-        return self.origin + u[..., None] * self.along + v[..., None] * up + out[..., None] * self.normal
+        u, v, out = (np.asarray(value, np.float64)[..., None] for value in (u, v, out))
+        return self.origin + u * self.along + v * _UP + out * self.normal
 
     def rectangles(self, boxes: ArrayLike, out: ArrayLike = 0.0) -> Points:
         """Rectangles ``(n, 4)`` as u0, v0, u1, v1 to corners ``(n, 4, 3)``: (u0, v1), (u1, v1), (u1, v0), (u0, v0)."""
-        u0, v0, u1, v1 = np.atleast_2d(np.asarray(boxes, float)).T
-        return self.point(np.stack([u0, u1, u1, u0], 1), np.stack([v1, v1, v0, v0], 1), np.reshape(out, (-1, 1)))
+        boxes = np.asarray(boxes, np.float64).reshape(-1, 4)
+        return self.point(boxes[:, [0, 2, 2, 0]], boxes[:, [3, 3, 1, 1]], np.reshape(out, (-1, 1)))
 
     def locate(self, point: Points) -> Points:
         """The u, v and distance from the plane of a street point ``(3,)``."""

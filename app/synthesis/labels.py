@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import cv2
@@ -64,7 +63,7 @@ def label_edges(
     )
     sight = _look(samples, picture, photo)
     runs = _visible_runs(sight.seen, samples.owners)
-    return _collect(_without_twins(runs, samples, photo.shape), sight, kinds)
+    return _collect(_without_twins(runs, sight, photo.shape), sight, kinds)
 
 
 def label_curves(
@@ -92,8 +91,8 @@ def label_curves(
     curve_of_piece = np.repeat(np.arange(len(curves)), [len(points) - 1 for points in curves]).astype(np.int64)
     owners = curve_of_piece[pieces.owners]
     # where two pieces of a curve meet, both have a sample
-    step = np.linalg.norm(np.diff(pieces.points, axis=0, prepend=np.inf), axis=1)
-    fresh = (step > 0.3) | (np.diff(owners, prepend=-1) != 0)
+    step_x, step_y = np.diff(pieces.points.T, prepend=np.inf)
+    fresh = (step_x * step_x + step_y * step_y > 0.3**2) | (np.diff(owners, prepend=-1) != 0)
     samples = Samples(pieces.points[fresh], pieces.places[fresh], pieces.inverse_depths[fresh], owners[fresh])
     sight = _look(samples, picture, photo)
     seen = sight.seen
@@ -114,7 +113,8 @@ def _look(samples: Samples, picture: Picture, photo: NDArray[np.float32]) -> _Si
     grey = np.asarray(cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY), np.float32)
     normals = across(samples.points, samples.owners)
     seen = unhidden(picture, samples.places, across(samples.places, samples.owners), samples.inverse_depths)
-    seen &= ((samples.points >= 0) & (samples.points <= [width - 1, height - 1])).all(axis=1)
+    x, y = samples.points.T
+    seen &= (x >= 0) & (x <= width - 1) & (y >= 0) & (y <= height - 1)
     step = np.zeros(len(seen), np.float32)
     # neighbours along an edge count, so what is looked at reaches a little beyond what is seen
     near = np.flatnonzero(np.convolve(seen, np.ones(2 * REACH + 1), "same") > 0) if len(seen) else np.zeros(0, np.int64)
@@ -123,16 +123,19 @@ def _look(samples: Samples, picture: Picture, photo: NDArray[np.float32]) -> _Si
 
 
 def _visible_runs(seen: NDArray[np.bool_], owners: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """Stretches ``[first, last)`` of one edge that can be seen, at least `SHORTEST` px long."""
-    breaks = np.flatnonzero(np.diff(owners)) + 1
-    borders = np.concatenate([[0], breaks, [len(seen)]]).tolist()
-    counts = np.concatenate([[0], np.cumsum(seen)])[borders]
-    return [
-        run
-        for first, last, hits in zip(borders[:-1], borders[1:], np.diff(counts).tolist(), strict=True)
-        if hits > SHORTEST / 2
-        for run in _stretches(seen, first, last)
-    ]
+    """Stretches ``[first, last)`` of one edge that can be seen, at least `SHORTEST` px long.
+
+    Gaps of a few samples are bridged.
+    """
+    hits = np.flatnonzero(seen)
+    if not len(hits):
+        return []
+    whose = owners[hits]
+    cuts = np.flatnonzero((np.diff(hits) > _BRIDGE + 1) | (np.diff(whose) != 0))
+    firsts, lasts = hits[np.append(0, cuts + 1)], hits[np.append(cuts, len(hits) - 1)]
+    enough = np.bincount(whose)[owners[firsts]] > SHORTEST / 2
+    kept = enough & (lasts - firsts >= SHORTEST)
+    return list(zip(firsts[kept].tolist(), (lasts[kept] + 1).tolist(), strict=True))
 
 
 def _on_labels(sight: _Sight, labels: Segments, shape: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -152,34 +155,30 @@ def _on_labels(sight: _Sight, labels: Segments, shape: tuple[int, ...]) -> NDArr
     return (other >= 0) & (np.abs(turn) < _PARALLEL)
 
 
-def _stretches(seen: NDArray[np.bool_], first: int, last: int) -> Iterator[tuple[int, int]]:
-    """Stretches of true values within ``[first, last)``, after bridging gaps of a few samples."""
-    hits = np.flatnonzero(seen[first:last])
-    if len(hits) <= SHORTEST / 2:
-        return
-    cuts = np.flatnonzero(np.diff(hits) > _BRIDGE + 1)
-    begins, finishes = hits[np.append(0, cuts + 1)], hits[np.append(cuts, len(hits) - 1)]
-    for begin, finish in zip(begins, finishes, strict=True):
-        if finish - begin >= SHORTEST:
-            yield int(first + begin), int(first + finish + 1)
-
-
-def _without_twins(runs: list[tuple[int, int]], samples: Samples, shape: tuple[int, ...]) -> list[tuple[int, int]]:
+def _without_twins(runs: list[tuple[int, int]], sight: _Sight, shape: tuple[int, ...]) -> list[tuple[int, int]]:
     """Where edges coincide (a wall's foot and a pavement's end) keep the longest; the others lose what is covered."""
     pad = 2
-    taken = np.full((shape[0] + 2 * pad, shape[1] + 2 * pad), -1, np.int64)
-    around = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 1, 2)
-    normals = across(samples.points, samples.owners)
-    cells = np.rint(samples.points).astype(np.int64) + pad
+    wide = shape[1] + 2 * pad
+    taken = np.full((shape[0] + 2 * pad) * wide, -1, np.int64)
+    around = (np.array([[-1], [0], [1]]) * wide + np.array([-1, 0, 1])).reshape(-1, 1)
+    points, normals = sight.samples.points, sight.normals
+    columns, rows = np.rint(points).astype(np.int64).T + pad
+    cells = rows * wide + columns
     kept: list[tuple[int, int]] = []
     for first, last in sorted(runs, key=lambda run: run[0] - run[1]):
-        cell, normal = cells[first:last], normals[first:last]
-        other = taken[cell[:, 1], cell[:, 0]]
-        # unit normals of either sign: the cross product is the sine of the angle between the edges
-        turn = np.abs(normal[:, 0] * normals[other, 1] - normal[:, 1] * normals[other, 0]) < _PARALLEL
-        apart = np.abs(np.sum((samples.points[other] - samples.points[first:last]) * normal, axis=1)) < _TWIN
-        for begin, finish in _stretches(~((other >= 0) & turn & apart), 0, last - first):
-            kept.append((first + begin, first + finish))
-            painted = cell[None, begin:finish] + around
-            taken[painted[..., 1], painted[..., 0]] = np.arange(first + begin, first + finish)
+        cell = cells[first:last]
+        other = taken[cell]
+        stretches = [(first, last)]
+        if other.max() >= 0:
+            normal = normals[first:last]
+            # unit normals of either sign: the cross product is the sine of the angle between the edges
+            turn = np.abs(normal[:, 0] * normals[other, 1] - normal[:, 1] * normals[other, 0])
+            way = points[other] - points[first:last]
+            apart = np.abs(way[:, 0] * normal[:, 0] + way[:, 1] * normal[:, 1])
+            free = ~((other >= 0) & (turn < _PARALLEL) & (apart < _TWIN))
+            whole = np.zeros(last - first, np.int64)
+            stretches = [(first + begin, first + end) for begin, end in _visible_runs(free, whole)]
+        for begin, end in stretches:
+            kept.append((begin, end))
+            taken[cells[begin:end] + around] = np.arange(begin, end)
     return sorted(kept)

@@ -49,9 +49,10 @@ class Light:
     def shade(self, colour: ArrayLike, normal: ArrayLike, sunlit: bool = True) -> Colour:
         """What a matt surface of a colour ``(..., 3)`` and a normal ``(..., 3)`` sends out: Lambert plus sky light."""
         normal = np.asarray(normal, np.float64)
-        facing = np.clip(normal @ self.to_sun, 0, None)[..., None] if sunlit else np.zeros((*normal.shape[:-1], 1))
-        above = (0.74 - 0.26 * normal[..., 1])[..., None]  # y points down: upward normals see the whole sky
-        received = above * self.sky_light + facing * self.sun
+        above = 0.74 - 0.26 * normal[..., 1:2]  # y points down: upward normals see the whole sky
+        received = above * self.sky_light
+        if sunlit:
+            received = received + np.maximum(normal @ self.to_sun, 0.0)[..., None] * self.sun
         return (np.asarray(colour, np.float32) * received).astype(np.float32)
 
 

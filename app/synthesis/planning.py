@@ -11,6 +11,7 @@ from app.synthesis.geometry import Panel
 from app.synthesis.guard_rails import GuardRail
 from app.synthesis.light import TimeOfDay, draw_light, rgb
 from app.synthesis.road import END, KERB, Road
+from app.synthesis.sky import make_sky
 from app.synthesis.street import Street, Thing
 from app.synthesis.textures import make_materials
 from app.synthesis.vehicles import PAINTS, PROFILES, Car
@@ -43,9 +44,9 @@ def plan_street(seed: int, time: TimeOfDay) -> Street:
     )
     houses = _plan_houses(rng, road)
     return Street(
-        seed=seed,
         light=light,
         materials=make_materials(np.random.default_rng([seed, 2]), light),
+        sky=make_sky(seed),
         road=road,
         houses=tuple(houses),
         cars=tuple(_plan_cars(rng, road)),

@@ -38,7 +38,9 @@ class FlatPolygons:
     Attributes:
         batch: The batch each is of, int64 ``(P,)``, rising.
         boxes: int64 ``(P, 4)``: left, top, right, bottom; right and bottom are the first px beyond.
-        edges: P arrays float32 ``(c, 3)``: edge functions, in px across the edge, positive inside.
+        edges: float64 ``(E, 3)``: edge functions, in px across the edge, positive inside; a polygon's own together.
+        first_edges: Where those of each begin, int64 ``(P,)``.
+        edge_counts: How many each has, int64 ``(P,)``.
         planes: float64 ``(P, 3)``: inverse depth ``a x + b y + c`` (1/m).
         colours: float32 ``(P, 3)``.
         opacities: float32 ``(P,)``.
@@ -47,7 +49,9 @@ class FlatPolygons:
 
     batch: NDArray[np.int64]
     boxes: NDArray[np.int64]
-    edges: list[NDArray[np.float32]]
+    edges: NDArray[np.float64]
+    first_edges: NDArray[np.int64]
+    edge_counts: NDArray[np.int64]
     planes: NDArray[np.float64]
     colours: NDArray[np.float32]
     opacities: NDArray[np.float32]
@@ -61,7 +65,7 @@ class _Outlines:
     batch: NDArray[np.int64]
     place: NDArray[np.int64]
     boxes: NDArray[np.int64]
-    edges: NDArray[np.float32]
+    edges: NDArray[np.float64]
     planes: NDArray[np.float64]
 
 
@@ -69,11 +73,13 @@ def project(batches: list[Batch], view: View) -> FlatPolygons:
     """Project all polygons, those of equally many corners at once; what isn't in the picture is left out."""
     groups: list[_Outlines] = []
     cut: dict[int, list[tuple[Points, int, int]]] = {}
-    for count in sorted({batch.corners.shape[1] for batch in batches}):
-        chosen = [index for index, batch in enumerate(batches) if batch.corners.shape[1] == count]
-        cameras = view.pose.to_camera(np.concatenate([batches[index].corners for index in chosen]))
-        owners = np.repeat(chosen, [len(batches[index].corners) for index in chosen])
-        places = np.concatenate([np.arange(len(batches[index].corners)) for index in chosen])
+    sizes, counts = np.array([batch.corners.shape[:2] for batch in batches], np.int64).reshape(-1, 2).T
+    for count in np.unique(counts):
+        chosen = np.flatnonzero(counts == count)
+        cameras = view.pose.to_camera(np.concatenate([batches[index].corners for index in chosen.tolist()]))
+        size = sizes[chosen]
+        owners = np.repeat(chosen, size)
+        places = np.arange(len(owners)) - np.repeat(np.cumsum(size) - size, size)
         depths = cameras[..., 2]
         whole = (depths >= NEAR).all(axis=1)
         groups.append(_outlines(cameras[whole], owners[whole], places[whole], view))
@@ -91,29 +97,32 @@ def _in_order(batches: list[Batch], groups: list[_Outlines]) -> FlatPolygons:
     batch = np.concatenate([np.zeros(0, np.int64), *(group.batch for group in groups)])
     place = np.concatenate([np.zeros(0, np.int64), *(group.place for group in groups)])
     order = np.lexsort([place, batch])
-    margins = np.array([each.margin for each in batches], np.float32)
-    edges: list[NDArray[np.float32]] = []
+    margins = np.array([each.margin for each in batches], np.float64)
     for group in groups:
         group.edges[..., 2] += margins[group.batch][:, None]
-        edges.extend(group.edges)
-    batch, place = batch[order], place[order]
-    starts = np.cumsum([0, *(len(each.corners) for each in batches)])
-    colours = np.concatenate([np.zeros((0, 3), np.float32), *(each.colours for each in batches)])
-    opacities = np.array([each.opacity for each in batches], np.float32)
+    edges = np.concatenate([np.zeros((0, 3)), *(group.edges.reshape(-1, 3) for group in groups)])
+    counts = np.concatenate([np.zeros(0, np.int64), *(np.full(len(g.batch), g.edges.shape[1]) for g in groups)])
     boxes = np.concatenate([np.zeros((0, 4), np.int64), *(group.boxes for group in groups)])
     planes = np.concatenate([np.zeros((0, 3)), *(group.planes for group in groups)])
-    owners = [batches[index] for index in batch]
+    batch, place = batch[order], place[order]
+    starts = np.cumsum([0, *(len(each.colours) for each in batches)])
+    colours = np.concatenate([np.zeros((0, 3), np.float32), *(each.colours for each in batches)])
+    opacities = np.array([each.opacity for each in batches], np.float32)
+    pictures = [each.textures for each in batches]
+    textures = [
+        None if several is None else several[at]
+        for several, at in zip((pictures[index] for index in batch.tolist()), place.tolist(), strict=True)
+    ]
     return FlatPolygons(
         batch=batch,
         boxes=boxes[order],
-        edges=[edges[index] for index in order],
+        edges=edges,
+        first_edges=(np.cumsum(counts) - counts)[order],
+        edge_counts=counts[order],
         planes=planes[order],
         colours=colours[starts[batch] + place],
         opacities=opacities[batch],
-        textures=[
-            None if owner.textures is None else owner.textures[at]
-            for owner, at in zip(owners, place.tolist(), strict=True)
-        ],
+        textures=textures,
     )
 
 
@@ -142,4 +151,4 @@ def _outlines(cameras: Points, batch: NDArray[np.int64], place: NDArray[np.int64
     edges = np.concatenate([across, offsets[..., None]], axis=-1)
     edges[lengths < 1e-9] = [0.0, 0.0, 1e4]  # a corner given twice bounds nothing
     planes = normals[seen] @ np.linalg.inv(view.matrix) / distances[seen, None]
-    return _Outlines(batch[seen], place[seen], boxes[seen], edges.astype(np.float32), planes)
+    return _Outlines(batch[seen], place[seen], boxes[seen], edges, planes)

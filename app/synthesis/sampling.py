@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from app.synthesis.projection import NEAR, View
 from app.synthesis.sensor import LensMap
 
-_NODES = 33
+_NODES, _FEW_NODES = 33, 5  # where along an edge its length through the lens is measured, and is estimated
+_SURELY_SHORT = 0.9  # of an estimate, which is never more and hardly less than the length
 STEP = 1.0  # px of the photo from sample to sample
 _RIM = 2.0  # px of the ideal picture in which nothing is asked
 
@@ -41,14 +42,15 @@ def sample_edges(
     out.
     """
     rays_a, rays_b, depth_a, depth_b, owners = _clip(starts, ends, view)
-    # in the ideal picture a line stays a line and its inverse depth is linear along it
-    along = np.linspace(0, 1, _NODES)
-    nodes = lens_map.lens.to_pixels(_blend(rays_a[:, None], rays_b[:, None], along[None, :, None]))
-    lengths = np.linalg.norm(np.diff(nodes, axis=1), axis=-1)
-    arcs = np.concatenate([np.zeros((len(nodes), 1)), np.cumsum(lengths, axis=1)], axis=1)
+    if shortest > 0:  # most edges are far and short
+        likely = _arcs(rays_a, rays_b, lens_map, _FEW_NODES)[:, -1] >= _SURELY_SHORT * shortest
+        rays_a, rays_b, depth_a, depth_b = (values[likely] for values in (rays_a, rays_b, depth_a, depth_b))
+        owners = owners[likely]
+    arcs = _arcs(rays_a, rays_b, lens_map, _NODES)
     long = arcs[:, -1] >= shortest
     rays_a, rays_b, depth_a, depth_b, arcs = (values[long] for values in (rays_a, rays_b, depth_a, depth_b, arcs))
     owners = owners[long]
+    along = np.linspace(0, 1, _NODES)
     total = arcs[:, -1]
     counts = np.maximum(np.rint(total / STEP).astype(np.int64), 1) + 1
     row = np.repeat(np.arange(len(counts)), counts)
@@ -66,6 +68,18 @@ def sample_edges(
         inverse_depths=_blend(depth_a[row], depth_b[row], share),
         owners=owners[row],
     )
+
+
+def _arcs(
+    rays_a: NDArray[np.float64], rays_b: NDArray[np.float64], lens_map: LensMap, count: int
+) -> NDArray[np.float64]:
+    """Lengths in the photo from edges' beginnings to `count` nodes of each, ``(n, count)`` px."""
+    # in the ideal picture a line stays a line and its inverse depth is linear along it
+    nodes = lens_map.lens.to_pixels(_blend(rays_a[:, None], rays_b[:, None], np.linspace(0, 1, count)[None, :, None]))
+    x, y = np.diff(nodes[..., 0], axis=1), np.diff(nodes[..., 1], axis=1)
+    arcs = np.zeros((len(nodes), count))
+    np.cumsum(np.sqrt(x * x + y * y), axis=1, out=arcs[:, 1:])
+    return arcs
 
 
 def _blend(a: NDArray[np.float64], b: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -110,11 +124,11 @@ def _clip(
 
 def across(points: NDArray[np.float64], owners: NDArray[np.int64]) -> NDArray[np.float64]:
     """Unit normals along edges, ``(n, 2)``, from the neighbours of the same edge."""
+    step = np.zeros((2, len(points)))
     if len(points) < 2:
-        return np.zeros_like(points)
-    ahead, behind = np.roll(points, -1, axis=0), np.roll(points, 1, axis=0)
-    ahead = np.where((np.roll(owners, -1) == owners)[:, None], ahead, points)
-    behind = np.where((np.roll(owners, 1) == owners)[:, None], behind, points)
-    step = ahead - behind
-    step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
-    return np.stack([-step[:, 1], step[:, 0]], axis=1)
+        return step.T
+    to_next = np.where(owners[1:] == owners[:-1], np.diff(points.T), 0.0)
+    step[:, :-1] = to_next
+    step[:, 1:] += to_next
+    step /= np.maximum(np.sqrt(step[0] * step[0] + step[1] * step[1]), 1e-12)
+    return np.stack([-step[1], step[0]], axis=1)

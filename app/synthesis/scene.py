@@ -109,7 +109,7 @@ def photograph(
     view = lens_map.view(pose)
     drawing = draw_street(street, pose.position)
     haze = Haze(street.light.horizon, street.light.haze)
-    picture = rasterise(drawing, view, paint_sky(view, street.light, street.seed), haze)
+    picture = rasterise(drawing, view, paint_sky(view, street.light, street.sky), haze)
     photo = expose(picture.colours, lens_map, sensor)
     labels = label_edges(drawing, view, lens_map, picture, photo)
     curves = label_curves(drawing, view, lens_map, picture, photo, labels)

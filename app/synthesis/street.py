@@ -25,6 +25,7 @@ from app.synthesis.guard_rails import GuardRail, draw_rail_piece, outline_rail, 
 from app.synthesis.light import Light, rgb
 from app.synthesis.people import draw_person
 from app.synthesis.road import KERB, Road, draw_pavements, draw_road, draw_shadows
+from app.synthesis.sky import Sky
 from app.synthesis.textures import Materials
 from app.synthesis.vegetation import draw_bush, draw_tree, draw_tree_shadow
 from app.synthesis.vehicles import Car, draw_car
@@ -59,9 +60,9 @@ class Thing:
 class Street:
     """All that a street is; drawn from anywhere along it, it is the same street."""
 
-    seed: int
     light: Light
     materials: Materials
+    sky: Sky
     road: Road
     houses: tuple[House, ...]
     cars: tuple[Car, ...]

@@ -37,14 +37,16 @@ def unhidden(
     height, width = picture.surface.shape
     clear = np.ones(len(places), np.bool_)
     owned = np.zeros(len(places), np.bool_)
+    x, y = places.T
+    nearest, farthest = inverse_depths * (1 + _SAME_DEPTH), inverse_depths * (1 - _SAME_DEPTH)
     for side in (-_ASIDE, _ASIDE):
-        at = np.rint(places + side * normals).astype(np.int64)
-        inside = (at >= 0).all(axis=1) & (at[:, 0] < width) & (at[:, 1] < height)
-        at = at.clip(0, [width - 1, height - 1])
-        planes = picture.planes[picture.surface[at[:, 1], at[:, 0]]]
-        here = planes[:, 0] * places[:, 0] + planes[:, 1] * places[:, 1] + planes[:, 2]
-        clear &= inside & (here <= inverse_depths * (1 + _SAME_DEPTH))
-        owned |= np.abs(here - inverse_depths) <= inverse_depths * _SAME_DEPTH
+        column = np.rint(x + side * normals[:, 0]).astype(np.int64)
+        row = np.rint(y + side * normals[:, 1]).astype(np.int64)
+        inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
+        a, b, c = picture.planes[np.where(inside, picture.surface[row * inside, column * inside], 0)].T
+        here = a * x + b * y + c
+        clear &= inside & (here <= nearest)
+        owned |= (here >= farthest) & (here <= nearest)
     return clear & owned
 
 

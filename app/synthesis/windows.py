@@ -190,23 +190,23 @@ def draw_ledges(
     u0, v0, u1, v1 = boxes.T
     eye_u, eye_v, _ = panel.locate(eye)
     if soft_shadow:
-        below = panel.rectangles(np.stack([u0, v0 - soft_shadow, u1, v0], axis=1))
+        below = panel.rectangles(boxes[:, [0, 1, 2, 1]] - np.array([0.0, soft_shadow, 0.0, 0.0]))
         drawing.paint(below, (0, 0, 0), textures=[texture_on(corners, _SOFT_SHADOW) for corners in below])
 
-    end = np.where(eye_u < u0, u0, u1)
-    ended = (eye_u < u0) | (eye_u > u1)
-    ends = panel.point(
-        np.stack([end] * 4, 1), np.stack([v1, v1, v0, v0], 1), np.broadcast_to([0.0, out, out, 0.0], (len(boxes), 4))
-    )
-    outward = np.where(eye_u < u0, -1.0, 1.0)[:, None] * panel.along
-    drawing.paint(ends[ended], light.shade(colour, outward)[ended], kind=kind)
+    before = eye_u < u0
+    ended = before | (eye_u > u1)
+    if ended.any():
+        end = np.where(before, u0, u1)[:, None]
+        ends = panel.point(end, boxes[:, [3, 3, 1, 1]], np.array([0.0, out, out, 0.0]))
+        outward = np.where(before, -1.0, 1.0)[:, None] * panel.along
+        drawing.paint(ends[ended], light.shade(colour, outward)[ended], kind=kind)
 
-    level = np.where(v0 > eye_v, v0, v1)
-    levelled = (v0 > eye_v) | (v1 < eye_v)
-    decks = panel.point(
-        np.stack([u0, u1, u1, u0], 1), np.stack([level] * 4, 1), np.broadcast_to([0.0, 0, out, out], (len(boxes), 4))
-    )
-    facing = np.where(v0 > eye_v, 1.0, -1.0)[:, None] * np.array([0.0, 1.0, 0.0])
-    tone = light.shade(colour, facing) * np.where(v0 > eye_v, 0.72, 1.0)[:, None].astype(np.float32)
-    drawing.paint(decks[levelled], tone[levelled], kind=kind)
+    above = v0 > eye_v
+    levelled = above | (v1 < eye_v)
+    if levelled.any():
+        level = np.where(above, v0, v1)[:, None]
+        decks = panel.point(boxes[:, [0, 2, 2, 0]], level, np.array([0.0, 0.0, out, out]))
+        facing = np.where(above, 1.0, -1.0)[:, None] * np.array([0.0, 1.0, 0.0])
+        tone = light.shade(colour, facing) * np.where(above, 0.72, 1.0)[:, None].astype(np.float32)
+        drawing.paint(decks[levelled], tone[levelled], kind=kind)
     drawing.paint(panel.rectangles(boxes, out), light.shade(colour, panel.normal), kind=kind)

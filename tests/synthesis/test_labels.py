@@ -29,7 +29,7 @@ def rectangle(x0: float, y0: float, x1: float, y1: float, z: float = 3.0) -> Poi
 
 def look(drawing: Drawing, lens_map: LensMap, curves: bool = False) -> EdgeLabels:
     view = lens_map.view(Pose(np.zeros(3)))
-    background = np.full((view.height, view.width, 3), 60, np.float32)
+    background = np.full((3, view.height, view.width), 60, np.float32)
     picture = rasterise(drawing, view, background, Haze(rgb(0, 0, 0), 1e9))
     photo = expose(picture.colours, lens_map, QUIET)
     return (label_curves if curves else label_edges)(drawing, view, lens_map, picture, photo)
@@ -164,7 +164,7 @@ def test_a_curve_along_a_label_is_no_distractor(plain_map: LensMap) -> None:
     drawing.paint(rectangle(-1, -1, 1, 1), (220, 220, 220), kind="sign")
     drawing.curve(rectangle(-1, -1, 1, 1)[:2], "shadow")
     view = plain_map.view(Pose(np.zeros(3)))
-    picture = rasterise(drawing, view, np.full((view.height, view.width, 3), 60, np.float32), Haze(rgb(0, 0, 0), 1e9))
+    picture = rasterise(drawing, view, np.full((3, view.height, view.width), 60, np.float32), Haze(rgb(0, 0, 0), 1e9))
     photo = expose(picture.colours, plain_map, QUIET)
     labels = label_edges(drawing, view, plain_map, picture, photo)
     assert len(label_curves(drawing, view, plain_map, picture, photo).segments) == 1
@@ -184,7 +184,7 @@ def test_a_clean_edge_is_imaged_where_its_label_lies(turn: float, barrel: Lens, 
     drawing = wall()
     drawing.paint(corners, (220, 220, 220), kind="sign")
     view = barrel_map.view(Pose(np.zeros(3)))
-    background = np.full((view.height, view.width, 3), 60, np.float32)
+    background = np.full((3, view.height, view.width), 60, np.float32)
     picture = rasterise(drawing, view, background, Haze(rgb(0, 0, 0), 1e9))
     grey = expose(picture.colours, barrel_map, QUIET)[..., 0].astype(np.float64)
     labels = label_edges(drawing, view, barrel_map, picture, expose(picture.colours, barrel_map, QUIET))

@@ -21,7 +21,7 @@ def rectangle(x0: float, y0: float, x1: float, y1: float, z: float = 10.0) -> Po
 
 
 def render(drawing: Drawing, haze: Haze = CLEAR, background: float = 0.0) -> Picture:
-    return rasterise(drawing, VIEW, np.full((31, 41, 3), background, np.float32), haze)
+    return rasterise(drawing, VIEW, np.full((3, 31, 41), background, np.float32), haze)
 
 
 @settings(max_examples=30, deadline=None)

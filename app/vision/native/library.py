@@ -50,6 +50,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     # selection.c
     "cl_count_samples": (c_int64, [_p, c_int64, c_double]),
     "cl_select": (c_int64, [POINTER(Scene), _p, c_int64, c_double, c_double, _p, _p, c_int64, Report]),
+    # painting.c
+    "cl_paint": (c_int, [_p, _p, c_int, c_int, _p, c_int64, _p, _p, _p]),
 }
 
 

@@ -1,4 +1,4 @@
-"""The records that cross the border to C, field for field those of ``kernels.h``, ``merging.c`` and ``selection.c``."""
+"""The records that cross the border to C, field for field those of the headers, ``merging.c`` and ``selection.c``."""
 
 from __future__ import annotations
 
@@ -58,6 +58,28 @@ FINDING = np.dtype(
     ]
 )
 """What is known of a segment; see `app.vision.selection`."""
+
+SURFACE = np.dtype(
+    [
+        ("lookup", "f8", 9),
+        ("nearness", "f8", 3),
+        ("clearness", "f8"),
+        ("left", "i4"),
+        ("top", "i4"),
+        ("right", "i4"),
+        ("bottom", "i4"),
+        ("first_edge", "i4"),
+        ("edges", "i4"),
+        ("texture", "i4"),
+        ("shadow", "i4"),
+        ("colour", "f4", 3),
+        ("opacity", "f4"),
+    ]
+)
+"""A polygon to be painted; see `app.synthesis.rasteriser`."""
+
+TEXTURE = np.dtype([("texels", "u8"), ("width", "i4"), ("height", "i4"), ("channels", "i4"), ("unused", "i4")])
+"""A picture on such polygons; the address of its texels is that of an array that lives as long."""
 
 CACHE_LINE = 64
 """Bytes."""

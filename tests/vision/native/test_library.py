@@ -21,6 +21,7 @@ from app.vision.native.records import (
     POINT,
     SPAN,
     SPAN_PIXELS,
+    SURFACE,
     Scene,
     address,
     aligned,
@@ -52,6 +53,7 @@ def declared(source: str, name: str) -> list[tuple[str, int]]:
         (SPAN, "kernels.h", "Span"),
         (ARC, "kernels.h", "Arc"),
         (FINDING, "selection.c", "Finding"),
+        (SURFACE, "painting.h", "Surface"),
     ],
 )
 def test_a_record_has_the_fields_of_its_declaration(record: np.dtype, source: str, name: str) -> None:
