@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.errors import InvalidImage
 from app.images.header import MAX_PIXELS, ImageHeader, describe
+from app.images.png import check_chunks
 from app.images.tiff import as_stored
 from app.vision.intensity import to_eight_bit
 
@@ -52,7 +53,9 @@ def decode_eight_bit(data: bytes, *, max_pixels: int = MAX_PIXELS) -> NDArray[np
 def _decode(data: bytes, max_pixels: int) -> NDArray[Any]:
     """Return uint8 or uint16 pixels as stored, ``(H, W)`` or blue, green, red ``(H, W, 3)``."""
     header = describe(data, max_pixels=max_pixels)
-    if header.format == "TIFF":
+    if header.format == "PNG":
+        check_chunks(data)
+    elif header.format == "TIFF":
         data = as_stored(data)
     try:
         # "unchanged" keeps 16 bit and alpha, and leaves EXIF orientation alone
