@@ -14,8 +14,11 @@
             UndecidedLeft           candidates wait for a verdict                       409
         Unauthenticated             a token that is not good                            401
         Forbidden                   not allowed for whom, or from where, it was asked   403
+            NotInvited              a stranger whom a provider names                403
+        TooSlow                     a request whose rest doesn't come                   408
         TooMany                     more often than is allowed for now                  429
         Unavailable                 can't be done now; trying again may help            503
+            NoRoom                  a disk of the server is full                        507
         Cancelled                   called off by whoever asked for it                  409
         BrokenInstallation          a part of ClearLines itself is missing              500
 
@@ -179,6 +182,19 @@ class Forbidden(ClearLinesError):
     code = "forbidden"
 
 
+class TooSlow(ClearLinesError):
+    """A request whose rest doesn't come."""
+
+    status = 408
+    code = "too-slow"
+
+
+class NotInvited(Forbidden):
+    """Whoever a provider names has no account, and nobody has asked them to make one."""
+
+    code = "not-invited"
+
+
 class TooMany(ClearLinesError):
     """More often than is allowed for now."""
 
@@ -191,6 +207,13 @@ class Unavailable(ClearLinesError):
 
     status = 503
     code = "unavailable"
+
+
+class NoRoom(Unavailable):
+    """A disk of the server is full."""
+
+    status = 507
+    code = "no-room"
 
 
 class Cancelled(ClearLinesError):

@@ -37,7 +37,7 @@ def test_the_environment_sets_every_knob(monkeypatch: pytest.MonkeyPatch, tmp_pa
 )
 def test_values_that_can_not_be(wrong: dict[str, object]) -> None:
     with pytest.raises(ValidationError):
-        Settings(**wrong)  # type: ignore[arg-type]
+        Settings(**wrong)
 
 
 def test_every_knob_is_described() -> None:

@@ -13,21 +13,24 @@ from __future__ import annotations
 import sqlite3
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, OperationalError
 from sqlalchemy.orm import Session
 
-from app.errors import Conflict, InvalidInput, Unavailable
+from app.errors import Conflict, InvalidInput, NoRoom, Unavailable
 
 BUSY_TIMEOUT = 30.0  # s
 POOL_SIZE = 20
 POOL_OVERFLOW = 30
 UNIQUE_VIOLATION = "23505"  # SQLSTATE
+DISK_FULL = frozenset({"SQLITE_FULL", "53100"})  # SQLite's name; SQLSTATE
 
 
 @dataclass(frozen=True)
@@ -36,9 +39,12 @@ class Database:
 
     Attributes:
         engine: The pool of connections.
+        writers: Whom SQLite lets write: one at a time. Those of this process wait for each other here. SQLite would
+            have them ask again and again, with pauses that grow, and some would wait for seconds while others come.
     """
 
     engine: Engine
+    writers: Lock = field(default_factory=Lock, repr=False, compare=False)
 
     @property
     def is_sqlite(self) -> bool:
@@ -64,14 +70,27 @@ class Database:
 
         Raises:
             Conflict: When someone else stored the same name or content at the same moment.
+            NoRoom: When its disk is full.
             Unavailable: When the database is locked, out of reach, or chose this session to break a deadlock.
         """
         engine = self.engine.execution_options(sqlite_begin="IMMEDIATE") if self.is_sqlite else self.engine
         try:
-            with Session(engine, expire_on_commit=False) as session, session.begin():
+            with self._turn(), Session(engine, expire_on_commit=False) as session, session.begin():
                 yield session
         except DBAPIError as error:
             raise _as_told(error) from error
+
+    @contextmanager
+    def _turn(self) -> Iterator[None]:
+        if not self.is_sqlite:
+            yield
+            return
+        if not self.writers.acquire(timeout=BUSY_TIMEOUT):
+            raise Unavailable("the database can't answer: it is being written to", hint="try again in a moment")
+        try:
+            yield
+        finally:
+            self.writers.release()
 
     def close(self) -> None:
         """Close all connections; the database can be used again afterwards."""
@@ -93,13 +112,13 @@ def open_database(url: str | URL, *, busy_timeout: float = BUSY_TIMEOUT) -> Data
     Raises:
         InvalidInput: When the address can't be read, or names another kind of database.
     """
-    address = _checked_address(url)
+    address = checked_address(url)
     options: dict[str, Any] = {"pool_size": POOL_SIZE, "max_overflow": POOL_OVERFLOW}
     if address.get_backend_name() == "sqlite":
         Path(str(address.database)).parent.mkdir(parents=True, exist_ok=True)
         engine = create_engine(address, connect_args={"timeout": busy_timeout}, **options)
         event.listen(engine, "connect", _prepare_sqlite)
-        event.listen(engine, "begin", _begin_sqlite)
+        event.listen(engine, "begin", begin_sqlite)
     else:
         try:
             engine = create_engine(address, pool_pre_ping=True, **options)
@@ -108,19 +127,33 @@ def open_database(url: str | URL, *, busy_timeout: float = BUSY_TIMEOUT) -> Data
     return Database(engine)
 
 
-def upgrade(database: Database) -> None:
+def upgrade(database: Database, *, backups: Path | None = None, now: datetime | None = None) -> None:
     """Bring the tables to this version's form; safe to call at each start, also by several processes at once.
 
+    Args:
+        database: The database.
+        backups: Folder into which a database of an older form is saved before it is changed; none is saved without.
+        now: When that is; needed with ``backups``.
+
     Raises:
-        Unavailable: When the database is locked, out of reach, or may not be written.
+        Unavailable: When the database is locked, out of reach, not whole yet, or may not be written.
     """
     # Alembic takes long to import, and most of the code never needs it
     from alembic.util import CommandError
 
+    from app.db.before_upgrades import saved_before_upgrade
     from app.db.migrations import run_upgrade
+    from app.db.unfinished import require_finished
+
+    def saved(revision: str) -> AbstractContextManager[object]:
+        if backups is None or now is None:
+            return nullcontext()
+        return saved_before_upgrade(database, revision, backups, now)
 
     try:
-        run_upgrade(database.engine)
+        with database.read() as session:
+            require_finished(session.connection())
+        run_upgrade(database.engine, saved=saved)
     except CommandError as error:
         raise Unavailable(
             f"the tables can't be brought to this version's form: {error}",
@@ -130,7 +163,12 @@ def upgrade(database: Database) -> None:
         raise _as_told(error) from error
 
 
-def _checked_address(url: str | URL) -> URL:
+def checked_address(url: str | URL) -> URL:
+    """Return the address of a database, with the driver that is used for it.
+
+    Raises:
+        InvalidInput: When it can't be read, or names another kind of database.
+    """
     kinds = "sqlite:///FILE or postgresql://USER@HOST/NAME"
     try:
         address = make_url(url)
@@ -172,7 +210,8 @@ def _switch_to_wal(cursor: sqlite3.Cursor) -> None:
             return
 
 
-def _begin_sqlite(connection: Connection) -> None:
+def begin_sqlite(connection: Connection) -> None:
+    """Begin a transaction, as the connection's options say: to read, unless they say how to write."""
     options = connection.get_execution_options()
     mode = options.get("sqlite_begin")
     connection.exec_driver_sql(f"PRAGMA query_only = {'OFF' if mode else 'ON'}")
@@ -192,6 +231,10 @@ def _as_told(error: DBAPIError) -> Exception:
         return Conflict("someone else stored the same thing at the same moment", hint="reload and try again")
     if state == "SQLITE_NOTADB":
         return InvalidInput("the file is no SQLite database", where="database_url", hint="is it the right file?")
+    if state in DISK_FULL:
+        return NoRoom(
+            "there is no room left for the database; nothing was changed", hint="make room on its disk, then try again"
+        )
     if isinstance(error, OperationalError):
         return Unavailable(f"the database can't answer: {cause}", hint="try again in a moment")
     return error

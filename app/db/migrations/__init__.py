@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
 from alembic import command
 from alembic.config import Config
-from sqlalchemy import Engine, text
+from alembic.script import ScriptDirectory
+from sqlalchemy import Connection, Engine, column, inspect, select, table, text
 
 # any number that no other program locks in the same database
 ADVISORY_LOCK = 7_316_540_021
+VERSION_TABLE = "alembic_version"
 
 
 def configuration() -> Config:
@@ -21,9 +25,29 @@ def configuration() -> Config:
     return config
 
 
-def run_upgrade(engine: Engine, revision: str = "head") -> None:
-    """Upgrade in one transaction, one process at a time."""
-    config = configuration()
+def revisions() -> tuple[str, ...]:
+    """Return the names of all forms that the tables ever had, the first one first."""
+    scripts = ScriptDirectory.from_config(configuration()).walk_revisions()
+    return tuple(script.revision for script in scripts)[::-1]
+
+
+def stored_revision(connection: Connection) -> str | None:
+    """Return the form that a database's tables have; None when it has no tables of ours."""
+    if not inspect(connection).has_table(VERSION_TABLE):
+        return None
+    return connection.execute(select(column("version_num")).select_from(table(VERSION_TABLE))).scalar()
+
+
+def run_upgrade(
+    engine: Engine, revision: str = "head", *, saved: Callable[[str], AbstractContextManager[object]] | None = None
+) -> None:
+    """Upgrade in one transaction, one process at a time.
+
+    Args:
+        engine: Of the database.
+        revision: The form to bring the tables to.
+        saved: Called with the form that they have, not where there are none yet; they are changed inside what it gives.
+    """
     options: dict[str, Any] = {}
     if engine.dialect.name == "sqlite":
         # SQLite alters a table by dropping and copying it, which with foreign keys on would delete what names its rows
@@ -31,5 +55,16 @@ def run_upgrade(engine: Engine, revision: str = "head") -> None:
     with engine.execution_options(**options).begin() as connection:
         if engine.dialect.name == "postgresql":
             connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": ADVISORY_LOCK})
-        config.attributes["connection"] = connection
-        command.upgrade(config, revision)
+        stored = stored_revision(connection)
+        known = revisions()
+        if revision == "head" and stored == known[-1]:
+            return
+        with saved(stored) if saved is not None and stored in known else nullcontext():
+            upgrade_within(connection, revision)
+
+
+def upgrade_within(connection: Connection, revision: str) -> None:
+    """Upgrade in the transaction of a connection; see ``run_upgrade`` for what it needs on SQLite."""
+    config = configuration()
+    config.attributes["connection"] = connection
+    command.upgrade(config, revision)

@@ -4,6 +4,7 @@ Integer keys inside, slugs and sha256 outside. Rows that can be deleted carry ``
 and purged after the grace period, until when the deletion can be undone. Times are UTC.
 """
 
+from app.db.models.accounts import INVITATION_KINDS, ROLES, Identity, Invitation, Token, User, WebSession
 from app.db.models.base import NEVER_REUSED, Base, Name, UtcDateTime, alive_unique, one_of
 from app.db.models.calibrations import CALIBRATION_SOURCES, Calibration
 from app.db.models.datasets import Blob, Camera, Dataset, Image, Installation
@@ -44,13 +45,14 @@ from app.db.models.submissions import (
     Score,
     Submission,
 )
-from app.db.models.tokens import ROLES, Token
+from app.db.models.tallies import ImagePerson, ImageTally, RunTally
 
 __all__ = [
     "CALIBRATION_SOURCES",
     "DECISION_KINDS",
     "EDIT_KINDS",
     "FINAL_STATES",
+    "INVITATION_KINDS",
     "METHOD_KINDS",
     "NEVER_REUSED",
     "ORIGINS",
@@ -74,16 +76,21 @@ __all__ = [
     "Decision",
     "Edit",
     "Event",
+    "Identity",
     "Image",
     "ImageFeatures",
+    "ImagePerson",
     "ImageScore",
+    "ImageTally",
     "Installation",
+    "Invitation",
     "Lease",
     "Method",
     "Name",
     "Review",
     "Run",
     "RunImage",
+    "RunTally",
     "Score",
     "SecondDecision",
     "SecondReview",
@@ -96,7 +103,9 @@ __all__ = [
     "SuggestionModel",
     "SuggestionTraining",
     "Token",
+    "User",
     "UtcDateTime",
+    "WebSession",
     "alive_unique",
     "one_of",
 ]

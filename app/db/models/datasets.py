@@ -5,13 +5,22 @@ from __future__ import annotations
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import ForeignKey, Index, String, Text, UniqueConstraint
+from sqlalchemy import Float, ForeignKey, Index, String, Text, UniqueConstraint, text
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db.models.base import NEVER_REUSED, Base, Name, alive_unique
 
 if TYPE_CHECKING:
     from app.db.models.labelling import Review
+
+
+ALIVE, DELETED = text("deleted_at IS NULL"), text("deleted_at IS NOT NULL")
+FILTERS = ("review_status", "prelabel", "source", "sequence", "camera_id", "assignee")
+
+
+def _alive_index(name: str, *then: str) -> Index:
+    columns = ("dataset_id", name, *then, "id")
+    return Index(f"ix_images_alive_{name}", *columns, sqlite_where=ALIVE, postgresql_where=ALIVE)
 
 
 class Installation(Base):
@@ -77,8 +86,12 @@ class Image(Base):
     __table_args__ = (
         alive_unique("uq_images_dataset_name_alive", "dataset_id", "name"),
         alive_unique("uq_images_dataset_content_alive", "dataset_id", "sha256"),
-        Index("ix_images_dataset_camera", "dataset_id", "camera_id"),
-        Index("ix_images_dataset_id_assignee", "dataset_id", "assignee"),
+        # each filter of the lists in the order of names, and each order; those that decisions change aren't among them
+        *(_alive_index(name, "name") for name in FILTERS),
+        *(_alive_index(name) for name in ("created_at", "n_candidates", "lowest_score", "highest_score")),
+        Index("ix_images_deleted", "dataset_id", "deleted_at", sqlite_where=DELETED, postgresql_where=DELETED),
+        Index("ix_images_dataset_id_name_id", "dataset_id", "name", "id"),  # deleted ones too, which runs still show
+        Index("ix_images_sha256_dataset_id", "sha256", "dataset_id"),
         NEVER_REUSED,
     )
 
@@ -86,7 +99,7 @@ class Image(Base):
     dataset_id: Mapped[int] = mapped_column(ForeignKey("datasets.id", ondelete="CASCADE"))
     name: Mapped[str] = mapped_column(Name)  # the path under the root without extension: KITTI/000000
     file_name: Mapped[str] = mapped_column(String(500))
-    sha256: Mapped[str] = mapped_column(ForeignKey("blobs.sha256"), index=True)
+    sha256: Mapped[str] = mapped_column(ForeignKey("blobs.sha256"))
     width: Mapped[int]
     height: Mapped[int]
     bits: Mapped[int]
@@ -100,6 +113,12 @@ class Image(Base):
     n_keep: Mapped[int] = mapped_column(default=0)
     n_reject: Mapped[int] = mapped_column(default=0)
     n_ambiguous: Mapped[int] = mapped_column(default=0)
+    # of the scores of the current segments; written there too
+    lowest_score: Mapped[float | None] = mapped_column(Float)
+    highest_score: Mapped[float | None] = mapped_column(Float)
+    # copies for lists, written by triggers alone: its review's status, and the state of the newest work on it
+    review_status: Mapped[str] = mapped_column(String(20), server_default="open")
+    prelabel: Mapped[str] = mapped_column(String(20), server_default="none")
     current_run_image_id: Mapped[int | None] = mapped_column(
         ForeignKey("run_images.id", use_alter=True, ondelete="SET NULL"), index=True
     )

@@ -122,13 +122,20 @@ class Review(Base):
 
 
 class Event(Base):
-    """Append-only audit of what was imported, renamed, deleted, restored, started..."""
+    """Append-only audit of what was imported, renamed, deleted, restored, started... and who signed in."""
 
     __tablename__ = "events"
+    __table_args__ = (
+        Index("ix_events_dataset_id_created_at_id", "dataset_id", "created_at", "id"),
+        Index("ix_events_created_at_id", "created_at", "id"),
+        Index("ix_events_person_id", "person", "id"),
+        Index("ix_events_kind_id", "kind", "id"),
+    )
 
     id: Mapped[int] = mapped_column(primary_key=True)
-    dataset_id: Mapped[int | None] = mapped_column(ForeignKey("datasets.id", ondelete="SET NULL"), index=True)
+    dataset_id: Mapped[int | None] = mapped_column(ForeignKey("datasets.id", ondelete="SET NULL"))
     kind: Mapped[str] = mapped_column(String(60))
     person: Mapped[str | None] = mapped_column(String(200))
+    address: Mapped[str | None] = mapped_column(String(100))  # where they asked from, on what concerns accounts
     details: Mapped[dict[str, Any]]
     created_at: Mapped[datetime]

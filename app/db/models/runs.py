@@ -5,12 +5,13 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Float, ForeignKey, Index, LargeBinary, String, UniqueConstraint
+from sqlalchemy import Float, ForeignKey, Index, LargeBinary, String, UniqueConstraint, text
 from sqlalchemy.orm import Mapped, mapped_column
 
 from app.db.models.base import NEVER_REUSED, Base, one_of
 
 WORK_STATES = ("queued", "running", "done", "failed", "cancelled")
+TO_JUDGE = text("status = 'done' AND camera_estimate_id IS NULL AND error IS NULL")
 
 
 class Run(Base):
@@ -38,7 +39,9 @@ class RunImage(Base):
     __table_args__ = (
         UniqueConstraint("run_id", "image_id"),
         one_of("status", WORK_STATES),
-        Index("ix_run_images_status_run", "status", "run_id"),
+        Index("ix_run_images_status_run_id_id", "status", "run_id", "id"),
+        Index("ix_run_images_run_id_heartbeat_at", "run_id", "heartbeat_at"),
+        Index("ix_run_images_to_judge", "run_id", "id", sqlite_where=TO_JUDGE, postgresql_where=TO_JUDGE),
         NEVER_REUSED,
     )
 
