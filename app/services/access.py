@@ -7,7 +7,8 @@ reader      look at what is public
 submitter   hand in submissions, and look after their own
 annotator   decide on candidates of images that no hidden split uses
 maintainer  everything about datasets, runs and splits, and see what hidden splits conceal
-owner       the person at the machine: in local mode whoever asks, without a token
+admin       the same, and accounts, tokens and the state of the server. In local mode whoever asks, without a login,
+            is its one owner and may do that
 =========== ==========================================================================================
 
 What hidden splits conceal from everyone below maintainer is told in ``app.services.concealing``; which role each
@@ -19,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-Role = Literal["reader", "submitter", "annotator", "maintainer", "owner"]
+Role = Literal["reader", "submitter", "annotator", "maintainer", "admin"]
 ROLES: tuple[Role, ...] = get_args(Role)
 """From the least to the most."""
 
@@ -29,15 +30,24 @@ class Viewer:
     """Who asks.
 
     Attributes:
-        name: The token's name, the owner's own in local mode, ``None`` for an anonymous reader. What this viewer does
-            is stored under it.
+        name: The account's or token's name, the owner's own in local mode, ``None`` for an anonymous reader. What this
+            viewer does is stored under it.
         role: What it may do.
-        anonymous: Whether it asks without a token.
+        anonymous: Whether it asks without an account or token.
+        user_id: The account, where there is one.
+        web_session_id: The browser's session, where it asks through one.
     """
 
     name: str | None
     role: Role
     anonymous: bool = False
+    user_id: int | None = None
+    web_session_id: int | None = None
+
+
+def lesser_role(one: str, other: str) -> Role:
+    """Return the role of two that may less."""
+    return next(role for role in ROLES if role in (one, other))
 
 
 def is_at_least(viewer: Viewer, role: Role) -> bool:
@@ -58,6 +68,11 @@ def can_label(viewer: Viewer) -> bool:
 def can_maintain(viewer: Viewer) -> bool:
     """Whether the viewer may change datasets, runs and splits."""
     return is_at_least(viewer, "maintainer")
+
+
+def can_administer(viewer: Viewer) -> bool:
+    """Whether the viewer may manage accounts and look after the server."""
+    return is_at_least(viewer, "admin")
 
 
 def can_see_hidden(viewer: Viewer) -> bool:

@@ -67,7 +67,9 @@ def assign(
         NotFound: Naming the ids that no image of the dataset has.
     """
     names = _checked_people(people, mode)
-    session.get_one(Dataset, dataset.id, with_for_update=True)  # who shares out at once shares what is left then
+    session.get_one(
+        Dataset, dataset.id, with_for_update={"key_share": True}
+    )  # who shares out at once shares what is left then
     tasks = _tasks(session, dataset, image_ids)
     shares = dict.fromkeys(names, tasks) if mode == "to" else equal_shares(tasks, names)
     if not names:

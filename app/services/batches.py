@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 from typing import TypeVar
 
 Item = TypeVar("Item")
@@ -14,3 +15,10 @@ def in_batches(items: Sequence[Item], size: int = BATCH) -> Iterator[Sequence[It
     """Yield the items in order, at most ``size`` at a time."""
     for start in range(0, len(items), size):
         yield items[start : start + size]
+
+
+def batches_of(items: Iterable[Item], size: int = BATCH) -> Iterator[list[Item]]:
+    """Yield the items in order, at most ``size`` at a time; no more than these are taken from where they come from."""
+    left = iter(items)
+    while batch := list(islice(left, size)):
+        yield batch

@@ -6,6 +6,7 @@ from sqlalchemy import delete, exists, select
 from sqlalchemy.orm import Session
 
 from app.db.models import Blob, Image, SplitImage, SplitVersion, Submission
+from app.services.blob_keeping import blobs_may_go
 from app.storage import BlobStore
 
 NAMED_BY = (
@@ -19,7 +20,7 @@ NAMED_BY = (
 
 
 def discard_blob(session: Session, blobs: BlobStore, sha256: str | None) -> bool:
-    """Remove a blob, row and file, that no row names; return whether it is gone.
+    """Remove a blob, row and file, that no row names; return whether it is gone. While a backup copies blobs it stays.
 
     Args:
         session: A writing session in which the row that named it was removed, or changed.
@@ -29,6 +30,8 @@ def discard_blob(session: Session, blobs: BlobStore, sha256: str | None) -> bool
     if sha256 is None:
         return False
     session.flush()
+    if not blobs_may_go(session):
+        return False
     # whoever stores the same content now waits here, and then finds the file gone and is told to send it again
     session.execute(select(Blob.sha256).where(Blob.sha256 == sha256).with_for_update())
     if any(session.scalar(select(exists().where(column == sha256))) for column in NAMED_BY):

@@ -6,15 +6,16 @@ from dataclasses import dataclass, fields
 from datetime import timedelta
 from typing import Any
 
-from sqlalchemy import func, select
+from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import Calibration, Camera, Dataset, Image
-from app.services.calibration_scope import images_of_camera, kept_lines_changed
+from app.db.models import Calibration, Camera, Dataset, ImageTally
+from app.services.calibration_scope import kept_lines_changed
 from app.services.calibration_summaries import CalibrationBrief, calibration_brief, newest_with
 from app.services.cameras import CameraEntry, camera_entry
 from app.services.image_details import DatasetName
 from app.services.run_queue import UNFINISHED
+from app.services.tallies import of_dataset, summed
 
 
 @dataclass(frozen=True)
@@ -56,11 +57,9 @@ def camera_detail(session: Session, camera: Camera, *, grace: timedelta) -> Came
     entry = camera_entry(session, camera)
     dataset = session.get_one(Dataset, camera.dataset_id)
     kept, candidates, labelled = session.execute(
-        select(
-            func.coalesce(func.sum(Image.n_keep), 0),
-            func.coalesce(func.sum(Image.n_candidates), 0),
-            func.count(Image.id).filter(Image.n_keep > 0),
-        ).where(images_of_camera(camera))
+        select(summed(ImageTally.keep), summed(ImageTally.candidates), summed(ImageTally.labelled)).where(
+            of_dataset(dataset), ImageTally.camera_id == camera.id
+        )
     ).one()
     latest, active = (newest_with(session, camera.id, states) for states in (("done",), UNFINISHED))
     return CameraDetail(

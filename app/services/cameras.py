@@ -9,10 +9,11 @@ from typing import Any
 from sqlalchemy import func, or_, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Camera, CameraEstimate, Dataset, Image, Run
+from app.db.models import Camera, CameraEstimate, Dataset, Image, ImageTally, Run
 from app.errors import Conflict, InvalidInput, NotFound
 from app.formats.naming import composed
 from app.services.events import record_event
+from app.services.tallies import counts_by
 
 NAME_LENGTH = 300
 
@@ -132,20 +133,24 @@ def rename_camera(session: Session, camera: Camera, name: str, now: datetime, *,
 
 
 def _entries(session: Session, chosen: Any) -> list[CameraEntry]:
-    images = func.count(Image.id)
-    rows = session.execute(
-        select(Camera, images)
-        .outerjoin(Image, (Image.camera_id == Camera.id) & Image.deleted_at.is_(None))
-        .where(Camera.id.in_(chosen))
-        .group_by(Camera.id)
-        .order_by(Camera.name)
-    ).all()
-    estimates = latest_estimates(session, chosen)
+    cameras = session.scalars(select(Camera).where(Camera.id.in_(chosen)).order_by(Camera.name)).all()
+    # of a camera's own dataset, whose tallies an index finds
+    datasets = {camera.dataset_id for camera in cameras}
+    images = counts_by(
+        session, ImageTally.camera_id, ImageTally.dataset_id.in_(datasets), ImageTally.deleted.is_(False)
+    )
+    estimates = latest_estimates(session, [camera.id for camera in cameras])
     return [
         CameraEntry(
-            camera.id, camera.name, camera.width, camera.height, count, camera.reference, estimates.get(camera.id)
+            camera.id,
+            camera.name,
+            camera.width,
+            camera.height,
+            images.get(camera.id, 0),
+            camera.reference,
+            estimates.get(camera.id),
         )
-        for camera, count in rows
+        for camera in cameras
     ]
 
 

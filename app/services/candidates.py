@@ -7,16 +7,31 @@ the segments that a person decided on stay current: a decision outlives the run 
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import cache
 from typing import Any
 
-from sqlalchemy import ColumnElement, Select, and_, case, exists, func, or_, select, update
+from sqlalchemy import (
+    BindParameter,
+    ColumnElement,
+    Select,
+    Update,
+    and_,
+    bindparam,
+    case,
+    exists,
+    func,
+    or_,
+    select,
+    update,
+)
 from sqlalchemy.orm import Session, aliased
 from sqlalchemy.sql.elements import SQLCoreOperations
 from sqlalchemy.sql.roles import ColumnsClauseRole
 
 from app.db.models import ORIGINS, Image, Run, RunImage, Segment, SegmentState
 
-COUNTS = ("n_candidates", "n_keep", "n_reject", "n_ambiguous")
+LISTED = "listed_image_ids"
+COUNTS = ("n_candidates", "n_keep", "n_reject", "n_ambiguous", "lowest_score", "highest_score")
 
 
 def verdict_of_segment() -> ColumnElement[str]:
@@ -54,7 +69,7 @@ def current_segments(*columns: ColumnsClauseRole | SQLCoreOperations[Any] | type
 
 
 def refresh_counts(session: Session, image_ids: Collection[int] | Select[int]) -> None:
-    """Write the counts of current segments into the images' rows.
+    """Write the counts of current segments, and between which scores they are, into the images' rows.
 
     To be called in the transaction of each change: a run's result, a decision, an import, a run deleted or restored.
 
@@ -63,12 +78,29 @@ def refresh_counts(session: Session, image_ids: Collection[int] | Select[int]) -
         image_ids: The images, or a query that selects their ids.
     """
     session.flush()
+    if isinstance(image_ids, Select):
+        session.execute(_update_of_counts(image_ids))
+    else:
+        session.execute(_update_of_listed(), {LISTED: list(image_ids)})
+    for image in [entry for entry in session.identity_map.values() if isinstance(entry, Image)]:
+        session.expire(image, COUNTS)
+
+
+@cache
+def _update_of_listed() -> Update:
+    """Return the statement for ids that are given when it is executed; to build it takes longer than to execute it."""
+    return _update_of_counts(bindparam(LISTED, expanding=True))
+
+
+def _update_of_counts(image_ids: Select[int] | BindParameter[Any]) -> Update:
     verdict = verdict_of_segment()
     counts = (
         select(
             Segment.image_id,
             func.count().label("candidates"),
             *(func.count(case((verdict == name, 1))).label(name) for name in ("keep", "reject", "ambiguous")),
+            func.min(Segment.score).label("lowest"),
+            func.max(Segment.score).label("highest"),
         )
         .outerjoin(SegmentState, SegmentState.segment_id == Segment.id)
         .where(Segment.image_id.in_(image_ids), is_current())
@@ -76,21 +108,26 @@ def refresh_counts(session: Session, image_ids: Collection[int] | Select[int]) -
         .subquery()
     )
     of_each_image = (
-        select(Image.id, *(func.coalesce(column, 0).label(column.name) for column in list(counts.c)[1:]))
+        select(
+            Image.id,
+            *(func.coalesce(column, 0).label(column.name) for column in list(counts.c)[1:5]),
+            counts.c.lowest,
+            counts.c.highest,
+        )
         .outerjoin(counts, counts.c.image_id == Image.id)
         .where(Image.id.in_(image_ids))
         .subquery()
     )
-    session.execute(
+    return (
         update(Image)
         .values(
             n_candidates=of_each_image.c.candidates,
             n_keep=of_each_image.c.keep,
             n_reject=of_each_image.c.reject,
             n_ambiguous=of_each_image.c.ambiguous,
+            lowest_score=of_each_image.c.lowest,
+            highest_score=of_each_image.c.highest,
         )
         .where(Image.id == of_each_image.c.id)
         .execution_options(synchronize_session=False)
     )
-    for image in [entry for entry in session.identity_map.values() if isinstance(entry, Image)]:
-        session.expire(image, COUNTS)

@@ -16,6 +16,8 @@ from app.services.cards import labels_mark
 from app.services.datasets import get_dataset
 from app.services.labelled_contents import Find, LabelledContent, labelled_contents
 
+SHOWN_IMAGES = 300
+"""Images that a page's table is computed from: some seconds' work, and enough for two digits."""
 MOST_TABLES = 16
 """Tables that are remembered; each is a few numbers."""
 
@@ -27,12 +29,16 @@ class CardTables:
         database: Where the labels are.
         find: Detects the candidates of images of which they aren't known; those images are left out without it.
         min_length: Labels of less arc length, px, are ignored.
+        most: Images that a table is computed from at most, spread evenly over those that are done; all when left out.
     """
 
-    def __init__(self, database: Database, find: Find | None = None, *, min_length: float = 0.0) -> None:
+    def __init__(
+        self, database: Database, find: Find | None = None, *, min_length: float = 0.0, most: int | None = None
+    ) -> None:
         self._database = database
         self._find = find
         self._min_length = min_length
+        self._most = most
         self._tables: OrderedDict[str, tuple[TableRow, ...]] = OrderedDict()
         self._lock = Lock()
 
@@ -47,7 +53,7 @@ class CardTables:
                 dataset = get_dataset(session, slug)
                 mark = labels_mark(session, dataset)
                 known = self._tables.get(mark)
-                contents = [] if known is not None else labelled_contents(session, dataset, self._find)
+                contents = [] if known is not None else labelled_contents(session, dataset, self._find, most=self._most)
             table = _table(contents, self._min_length) if known is None else known
             self._tables[mark] = table
             self._tables.move_to_end(mark)

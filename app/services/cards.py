@@ -4,25 +4,28 @@ from __future__ import annotations
 
 import hashlib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from sqlalchemy import func, select
+from sqlalchemy import Row, func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Dataset, Decision, Image, Review
+from app.db.models import Camera, Dataset, Decision, Image, ImageTally, Review
 from app.errors import NotFound
 from app.images import decode_display
 from app.services.card_figure import draw_panels
 from app.services.counts import VerdictCounts, verdict_counts
 from app.services.datasets import get_dataset
 from app.services.labelled_contents import images_done, labelled_content
+from app.services.tallies import of_dataset, summed
 from app.storage import BlobStore
 
 SIZES_SHOWN = 5
+COUNTED = ("images", "candidates", "keep", "reject", "ambiguous")
 
 
 @dataclass(frozen=True)
@@ -71,24 +74,21 @@ def dataset_card(session: Session, slug: str) -> Card:
         NotFound: When there is no such dataset.
     """
     dataset = get_dataset(session, slug)
-    images = session.execute(
-        select(Image, Review.status)
-        .join(Review, Review.image_id == Image.id)
-        .where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None))
-    ).all()
-    counts = [sum(getattr(image, f"n_{word}") for image, _ in images) for word in ("keep", "reject", "ambiguous")]
-    verdicts = verdict_counts(sum(image.n_candidates for image, _ in images), *counts)
-    labelled = sum(status == "done" for _, status in images)
-    has_figure = any(status == "done" and image.n_keep for image, status in images)
+    rows = _tallied(session, dataset)
+    images, *counts = (sum(getattr(row, word) for row in rows) for word in COUNTED)
+    verdicts = verdict_counts(*counts)
+    done = [row for row in rows if row.review_status == "done"]
+    labelled = sum(row.images for row in done)
+    has_figure = any(row.labelled for row in done)
     return Card(
         slug=dataset.slug,
         name=dataset.name,
         description=dataset.description,
         licence=dataset.licence,
         citation=dataset.citation,
-        images=len(images),
+        images=images,
         labelled=labelled,
-        sources=_sources([(image, status) for image, status in images]),
+        sources=_sources(rows, _sizes(session, dataset)),
         labels=verdicts.keep,
         verdicts=verdicts,
         figure=f"/api/datasets/{dataset.slug}/card.png" if has_figure else None,
@@ -118,29 +118,46 @@ def card_figure(session: Session, blobs: BlobStore, slug: str, *, max_pixels: in
         NotFound: When there is no such dataset, or nothing is labelled.
     """
     dataset = get_dataset(session, slug)
-    images = session.scalars(images_done(dataset).where(Image.n_keep > 0).order_by(Image.n_keep, Image.name)).all()
-    if not images:
+    labelled = images_done(dataset).where(Image.n_keep > 0)
+    number = session.scalar(labelled.with_only_columns(func.count(Image.id))) or 0
+    image = session.scalars(labelled.order_by(Image.n_keep, Image.name).offset(number // 2).limit(1)).one_or_none()
+    if image is None:
         raise NotFound("no image of the dataset is labelled", where=slug, hint="finish the review of one")
-    image = images[len(images) // 2]
     content = labelled_content(session, image)
     pixels = decode_display(blobs.read(image.sha256), max_pixels=max_pixels)
     return _png(draw_panels(pixels, content.candidates, content.kept))
 
 
-def _sources(images: Sequence[tuple[Image, str]]) -> tuple[CardSource, ...]:
-    names = sorted({image.source for image, _ in images}, key=lambda name: (name is None, name or ""))
-    return tuple(_source(name, [row for row in images if row[0].source == name]) for name in names)
+def _tallied(session: Session, dataset: Dataset) -> Sequence[Row[*tuple[Any, ...]]]:
+    """Return sums over the images that are alike in source, drive, camera and review."""
+    keys = (ImageTally.source, ImageTally.sequence, ImageTally.camera_id, ImageTally.review_status)
+    sums = (getattr(ImageTally, name) for name in (*COUNTED, "labelled"))
+    query = select(*keys, *(summed(column).label(column.key) for column in sums)).where(of_dataset(dataset))
+    return [row for row in session.execute(query.group_by(*keys)) if row.images]
 
 
-def _source(name: str | None, images: Sequence[tuple[Image, str]]) -> CardSource:
-    sizes = Counter(f"{image.width} x {image.height}" for image, _ in images)
+def _sizes(session: Session, dataset: Dataset) -> dict[int, str]:
+    """Return the size of the images of each camera."""
+    cameras = session.scalars(select(Camera).where(Camera.dataset_id == dataset.id))
+    return {camera.id: f"{camera.width} x {camera.height}" for camera in cameras}
+
+
+def _sources(rows: Sequence[Row[*tuple[Any, ...]]], sizes: Mapping[int, str]) -> tuple[CardSource, ...]:
+    names = sorted({row.source for row in rows}, key=lambda name: (name is None, name or ""))
+    return tuple(_source(name, [row for row in rows if row.source == name], sizes) for name in names)
+
+
+def _source(name: str | None, rows: Sequence[Row[*tuple[Any, ...]]], sizes: Mapping[int, str]) -> CardSource:
+    of_size = Counter[str]()
+    for row in rows:
+        of_size[sizes[row.camera_id]] += row.images
     return CardSource(
         source=name,
-        images=len(images),
-        labelled=sum(status == "done" for _, status in images),
-        sequences=len({image.sequence for image, _ in images if image.sequence}),
-        cameras=len({image.camera_id for image, _ in images}),
-        sizes=tuple(size for size, _ in sizes.most_common(SIZES_SHOWN)),
+        images=of_size.total(),
+        labelled=sum(row.images for row in rows if row.review_status == "done"),
+        sequences=len({row.sequence for row in rows if row.sequence}),
+        cameras=len({row.camera_id for row in rows}),
+        sizes=tuple(size for size, _ in of_size.most_common(SIZES_SHOWN)),
     )
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 
-from sqlalchemy import ColumnElement, Select, exists, or_, select
+from sqlalchemy import ColumnElement, Select, and_, exists, or_, select
 from sqlalchemy.orm import Session
 
 from app.db.models import (
@@ -53,7 +53,10 @@ def open_contents() -> Select[str]:
 
 def is_concealed_dataset() -> ColumnElement[bool]:
     """Return the rule as a condition on ``Dataset``, for any query that has it in its FROM."""
-    holds_one = exists().where(Image.dataset_id == Dataset.id, Image.sha256.in_(hidden_contents())).correlate(Dataset)
+    # from the hidden images, of which there are few, to the dataset's by an index: never through all of a dataset
+    hidden = hidden_contents().subquery()
+    inside = exists().where(Image.dataset_id == Dataset.id, Image.sha256 == hidden.c.image_sha256)
+    holds_one = exists().select_from(hidden).where(inside.correlate(Dataset, hidden)).correlate(Dataset)
     made_from = exists().where(Split.dataset_id == Dataset.id, Split.visibility == "hidden").correlate(Dataset)
     return or_(holds_one, made_from)
 
@@ -64,7 +67,13 @@ def visible_datasets(viewer: Viewer | None) -> ColumnElement[bool] | None:
     Args:
         viewer: Who asks; ``None`` where no person does, as on the command line.
     """
-    return None if viewer is None or can_see_hidden(viewer) else ~is_concealed_dataset()
+    if viewer is None or can_see_hidden(viewer):
+        return None
+    # all concealed datasets at once, found from the hidden images, where the rule would look for these in each dataset
+    hidden = hidden_contents().subquery()
+    holding = select(Image.dataset_id).join(hidden, hidden.c.image_sha256 == Image.sha256)
+    sources = select(Split.dataset_id).where(Split.visibility == "hidden", Split.dataset_id.is_not(None))
+    return and_(Dataset.id.not_in(holding), Dataset.id.not_in(sources))
 
 
 def require_visible(session: Session, viewer: Viewer, named: Mapping[str, str]) -> None:

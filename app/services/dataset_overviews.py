@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy import ColumnElement, Row, and_, func, or_, select
+from sqlalchemy import ColumnElement, Row, ScalarSelect, and_, func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Dataset, Image, Review, Run
+from app.db.models import Dataset, Image, ImageTally, Run
 from app.services.access import Viewer
 from app.services.concealing import visible_datasets
 from app.services.counts import ReviewCounts, VerdictCounts, verdict_counts
 from app.services.datasets import get_dataset
 from app.services.run_briefs import RunBrief, run_briefs
+from app.services.tallies import summed
 
 COVER_IMAGES = 4
 
@@ -73,45 +74,42 @@ def dataset_overview(session: Session, slug: str, *, grace: timedelta) -> Datase
 
 
 def _overviews(session: Session, which: ColumnElement[bool], grace: timedelta) -> list[DatasetOverview]:
-    """Five queries, however many datasets there are."""
-    datasets = session.scalars(
-        select(Dataset).where(which).order_by(Dataset.created_at.desc(), Dataset.id.desc())
+    """Five queries, however many datasets there are, none of which reads all their images."""
+    ids_of_covers = [_cover_image(place).label(f"cover_{place}") for place in range(COVER_IMAGES)]
+    found = session.execute(
+        select(Dataset, *ids_of_covers).where(which).order_by(Dataset.created_at.desc(), Dataset.id.desc())
     ).all()
-    chosen = select(Dataset.id).where(which)
-    alive = and_(Image.dataset_id.in_(chosen), Image.deleted_at.is_(None))
-    counts = _counts_by_dataset(session, alive)
-    cover = _covers(session, alive)
+    ids = [row.Dataset.id for row in found]
+    counts = _counts_by_dataset(session, ids)
     latest = dict(
         session.execute(
             select(Run.dataset_id, func.max(Run.id))
-            .where(Run.dataset_id.in_(chosen), Run.deleted_at.is_(None))
+            .where(Run.dataset_id.in_(ids), Run.deleted_at.is_(None))
             .group_by(Run.dataset_id)
         ).all()
     )
     briefs = run_briefs(session, list(latest.values()))
     return [
-        _overview(dataset, counts.get(dataset.id, []), briefs.get(latest.get(dataset.id, 0)), cover, grace)
-        for dataset in datasets
+        _overview(
+            row.Dataset,
+            counts.get(row.Dataset.id, []),
+            briefs.get(latest.get(row.Dataset.id, 0)),
+            tuple(image_id for image_id in row[1:] if image_id is not None),
+            grace,
+        )
+        for row in found
     ]
 
 
-def _counts_by_dataset(session: Session, alive: ColumnElement[bool]) -> dict[int, list[Row[*tuple[Any, ...]]]]:
+def _counts_by_dataset(session: Session, ids: Sequence[int]) -> dict[int, list[Row[*tuple[Any, ...]]]]:
     """Return sums over images by dataset and review status."""
-    prelabelled = or_(Image.current_run_image_id.is_not(None), Image.n_candidates > 0)
+    sums = (
+        getattr(ImageTally, name) for name in ("images", "prelabelled", "candidates", "keep", "reject", "ambiguous")
+    )
     query = (
-        select(
-            Image.dataset_id,
-            Review.status,
-            func.count().label("images"),
-            func.count().filter(prelabelled).label("prelabelled"),
-            *(
-                func.coalesce(func.sum(column), 0).label(column.key)
-                for column in (Image.n_candidates, Image.n_keep, Image.n_reject, Image.n_ambiguous)
-            ),
-        )
-        .join(Review, Review.image_id == Image.id)
-        .where(alive)
-        .group_by(Image.dataset_id, Review.status)
+        select(ImageTally.dataset_id, ImageTally.review_status, *(summed(column).label(column.key) for column in sums))
+        .where(ImageTally.dataset_id.in_(ids), ImageTally.deleted.is_(False))
+        .group_by(ImageTally.dataset_id, ImageTally.review_status)
     )
     counts: dict[int, list[Row[*tuple[Any, ...]]]] = {}
     for row in session.execute(query):
@@ -119,27 +117,30 @@ def _counts_by_dataset(session: Session, alive: ColumnElement[bool]) -> dict[int
     return counts
 
 
-def _covers(session: Session, alive: ColumnElement[bool]) -> dict[int, list[int]]:
-    rank = func.row_number().over(partition_by=Image.dataset_id, order_by=Image.name).label("rank")
-    ranked = select(Image.dataset_id, Image.id, rank).where(alive).subquery()
-    query = select(ranked.c.dataset_id, ranked.c.id).where(ranked.c.rank <= COVER_IMAGES).order_by(ranked.c.rank)
-    covers: dict[int, list[int]] = {}
-    for dataset_id, image_id in session.execute(query):
-        covers.setdefault(dataset_id, []).append(image_id)
-    return covers
+def _cover_image(place: int) -> ScalarSelect[int]:
+    """Return the id of the image at a place among the dataset's, by name; each is found through an index."""
+    return (
+        select(Image.id)
+        .where(Image.dataset_id == Dataset.id, Image.deleted_at.is_(None))
+        .order_by(Image.name)
+        .offset(place)
+        .limit(1)
+        .correlate(Dataset)
+        .scalar_subquery()
+    )
 
 
 def _overview(
     dataset: Dataset,
     counts: Sequence[Row[*tuple[Any, ...]]],
     latest_run: RunBrief | None,
-    covers: dict[int, list[int]],
+    cover: tuple[int, ...],
     grace: timedelta,
 ) -> DatasetOverview:
     def total(column: str) -> int:
         return sum(int(getattr(row, column)) for row in counts)
 
-    candidates = total("n_candidates")
+    candidates = total("candidates")
     return DatasetOverview(
         id=dataset.id,
         slug=dataset.slug,
@@ -148,10 +149,10 @@ def _overview(
         deleted_at=dataset.deleted_at,
         restorable_until=dataset.deleted_at + grace if dataset.deleted_at else None,
         images=total("images"),
-        reviewed=ReviewCounts(**{str(row.status): int(row.images) for row in counts}),
+        reviewed=ReviewCounts(**{str(row.review_status): int(row.images) for row in counts}),
         prelabelled=total("prelabelled"),
         candidates=candidates,
-        verdicts=verdict_counts(candidates, total("n_keep"), total("n_reject"), total("n_ambiguous")),
+        verdicts=verdict_counts(candidates, total("keep"), total("reject"), total("ambiguous")),
         latest_run=latest_run,
-        cover=tuple(covers.get(dataset.id, ())),
+        cover=cover,
     )

@@ -144,7 +144,7 @@ def _of_slug(session: Session, slug: str, *, lock: bool = False) -> Dataset | No
     if not slug.isascii():  # no slug; and what a terminal gives may be no text that a database takes
         return None
     query = select(Dataset).where(Dataset.slug == slug)
-    return session.scalars(query.with_for_update() if lock else query).one_or_none()
+    return session.scalars(query.with_for_update(key_share=True) if lock else query).one_or_none()
 
 
 def checked_dataset_name(name: str) -> str:

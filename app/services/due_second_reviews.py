@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sqlalchemy import ColumnElement, Select, exists, func, select
+from sqlalchemy import ColumnElement, Select, exists, false, func, select
 
-from app.db.models import Dataset, Decision, Image, Review, SecondReview
-from app.services.people import WORK
+from app.db.models import Dataset, Image, Review, SecondReview
+from app.services.image_candidates import has_decided
 
 HEX_DIGITS = 8
 
@@ -27,6 +27,8 @@ class DueImage:
 
 def is_in_share(share: float) -> ColumnElement[bool]:
     """Return the condition on ``Image`` that its content is in the share: the first digits of its hash decide."""
+    if share <= 0.0:
+        return false()
     if share >= 1.0:
         return Image.id.is_not(None)
     return func.substr(Image.sha256, 1, HEX_DIGITS) < f"{round(share * 16**HEX_DIGITS):0{HEX_DIGITS}x}"
@@ -34,7 +36,6 @@ def is_in_share(share: float) -> ColumnElement[bool]:
 
 def due_images(dataset: Dataset, share: float, person: str | None) -> Select[int, str, int]:
     """Select the columns of ``DueImage`` of the images that a person can begin with."""
-    decided = exists().where(Decision.image_id == Image.id, Decision.person == person, Decision.kind.in_(WORK))
     begun = exists().where(SecondReview.image_id == Image.id)
     return (
         select(Image.id, Image.name, Image.n_candidates)
@@ -44,9 +45,9 @@ def due_images(dataset: Dataset, share: float, person: str | None) -> Select[int
             Image.deleted_at.is_(None),
             Image.n_candidates > 0,
             is_in_share(share),
-            Review.status == "done",
+            Image.review_status == "done",
             Review.person.is_distinct_from(person),
-            ~decided.correlate(Image),
+            *([] if person is None else [~has_decided(person)]),
             ~begun.correlate(Image),
         )
     )

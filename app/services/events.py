@@ -17,6 +17,19 @@ NEWEST_FIRST = Order("newest", Event.created_at, Event.id, descending=True)
 
 
 @dataclass(frozen=True)
+class Actor:
+    """Who does what is audited.
+
+    Attributes:
+        person: Their name; ``None`` where nobody has said it.
+        address: Where they ask from; ``None`` on the command line.
+    """
+
+    person: str | None
+    address: str | None = None
+
+
+@dataclass(frozen=True)
 class EventEntry:
     """One line of the audit."""
 
@@ -34,6 +47,7 @@ def record_event(
     *,
     dataset_id: int | None = None,
     person: str | None = None,
+    address: str | None = None,
     details: Mapping[str, Any] | None = None,
 ) -> None:
     """Add a line to the audit, in the transaction of what it tells of.
@@ -44,9 +58,24 @@ def record_event(
         now: When.
         dataset_id: Where.
         person: Who did it.
-        details: Facts; JSON-serialisable.
+        address: Where they asked from, on what concerns accounts.
+        details: Facts; JSON-serialisable, nothing secret.
     """
-    session.add(Event(dataset_id=dataset_id, kind=kind, person=person, details=dict(details or {}), created_at=now))
+    told = dict(details or {})
+    session.add(Event(dataset_id=dataset_id, kind=kind, person=person, address=address, details=told, created_at=now))
+
+
+def record_account_event(session: Session, kind: str, now: datetime, actor: Actor, /, **details: Any) -> None:
+    """Add a line about an account, session, invitation or token to the audit.
+
+    Args:
+        session: A writing session.
+        kind: What happened, ``user.disabled``.
+        now: When.
+        actor: Who did it.
+        details: Facts; JSON-serialisable, nothing secret.
+    """
+    record_event(session, kind, now, person=actor.person, address=actor.address, details=details)
 
 
 def list_events(session: Session, dataset: Dataset, *, limit: int = 100, cursor: str | None = None) -> Page[EventEntry]:

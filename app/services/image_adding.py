@@ -11,7 +11,7 @@ from sqlalchemy.orm import Session
 from app.db.models import Dataset, Image, Review
 from app.errors import ClearLinesError, InvalidInput, Unavailable
 from app.formats.naming import check_image_name, check_names, composed, is_image_path, name_of
-from app.images import ImageHeader, describe
+from app.images import ImageHeader, check_whole, describe
 from app.services.blobs import add_blob_row
 from app.services.cameras import camera_for, default_camera_name
 from app.services.images import NAME_LENGTH, WORD_LENGTH, is_named, name_conflict
@@ -46,16 +46,17 @@ class AddedImage:
 
 
 def receive_image(blobs: BlobStore, file_name: str, data: bytes, *, max_pixels: int) -> ReceivedImage:
-    """Check an image by its header and store its bytes; needs no database.
+    """Check an image, without decoding its pixels, and store its bytes; needs no database.
 
     Raises:
         InvalidInput: When the path is none.
-        InvalidImage: When it is no image of a kind that is read.
+        InvalidImage: When it is no image of a kind that is read, or not whole.
         TooLarge: When it has too many pixels.
     """
     file_name = checked_file_name(file_name)
     try:
         header = describe(data, max_pixels=max_pixels)
+        check_whole(data, header)
     except ClearLinesError as error:
         error.where = file_name
         raise
@@ -104,7 +105,9 @@ def add_image(
         Conflict: When another image of the dataset has its name.
         InvalidInput: When its camera takes images of another size.
     """
-    session.refresh(dataset, with_for_update=True)  # of two that add the same at once, the second finds the first one's
+    session.refresh(
+        dataset, with_for_update={"key_share": True}
+    )  # of two that add the same at once, the second finds the first one's
     present = select(Image).where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None))
     same = session.scalars(present.where(Image.sha256 == received.sha256)).one_or_none()
     if same is not None:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from sqlalchemy import ColumnElement, exists
 
-from app.db.models import Decision, Image, Segment
+from app.db.models import Image, ImagePerson, Segment
 from app.errors import InvalidInput
 from app.services.candidates import is_current
-from app.services.people import WORK
 from app.verdicts import VERDICTS
 
 
@@ -27,17 +26,22 @@ def candidate_conditions(
     """
     conditions: list[ColumnElement[bool]] = []
     if person is not None:
-        decided = exists().where(Decision.image_id == Image.id, Decision.person == person, Decision.kind.in_(WORK))
-        conditions.append(decided.correlate(Image))
+        conditions.append(has_decided(person))
     if verdict is not None:
         conditions.append(_number_of(verdict) > 0)
-    if min_score is not None or max_score is not None:
-        bounds = [
-            *([] if min_score is None else [Segment.score >= min_score]),
-            *([] if max_score is None else [Segment.score <= max_score]),
-        ]
-        conditions.append(exists().where(Segment.image_id == Image.id, *bounds, is_current()).correlate(Image))
+    if min_score is not None:
+        conditions.append(Image.highest_score >= min_score)
+    if max_score is not None:
+        conditions.append(Image.lowest_score <= max_score)
+    if min_score is not None and max_score is not None:
+        between = (Segment.score >= min_score) & (Segment.score <= max_score)
+        conditions.append(exists().where(Segment.image_id == Image.id, between, is_current()).correlate(Image))
     return conditions
+
+
+def has_decided(person: str) -> ColumnElement[bool]:
+    """Return the condition on ``Image`` that a person decided on at least one of its candidates."""
+    return exists().where(ImagePerson.image_id == Image.id, ImagePerson.person == person).correlate(Image)
 
 
 def _number_of(verdict: str) -> ColumnElement[int]:

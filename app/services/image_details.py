@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import func, or_, select
+from sqlalchemy import Select, func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Dataset, Image, Review, RunImage
+from app.db.models import Dataset, Image, ImageTally, RunImage
 from app.services.image_lens import lens_fields
 from app.services.image_summaries import ImageSummary, image_summary
 from app.services.leases import is_held_by_another
 from app.services.run_briefs import RunBrief, run_briefs
+from app.services.tallies import image_count
 
 
 @dataclass(frozen=True)
@@ -98,15 +100,29 @@ def neighbours(session: Session, image: Image, now: datetime, *, person: str | N
     alive = (Image.dataset_id == image.dataset_id) & Image.deleted_at.is_(None)
     ids = select(Image.id).where(alive)
     forwards, backwards = Image.name.asc(), Image.name.desc()
-    still_open = ids.join(Review, Review.image_id == Image.id).where(Review.status == "open", Image.id != image.id)
+    still_open = ids.where(Image.review_status == "open", Image.id != image.id)
+    tasks = [still_open]
     if person is not None:
-        still_open = still_open.where(or_(Image.assignee.is_(None), Image.assignee == person))
         still_open = still_open.where(~is_held_by_another(person, now))
-    after = Image.name > image.name
+        # one by one, each through the index: together they would be found among all that is others' task
+        tasks = [still_open.where(Image.assignee.is_(None)), still_open.where(Image.assignee == person)]
+    after, before = Image.name > image.name, Image.name < image.name
+    # the first one after it, else the first of all
+    next_open = _first(session, [task.where(after) for task in tasks])
+    if next_open is None:
+        next_open = _first(session, [task.where(before) for task in tasks])
+    here = (ImageTally.dataset_id == image.dataset_id) & ImageTally.deleted.is_(False)
     return Neighbours(
-        previous_id=session.scalar(ids.where(Image.name < image.name).order_by(backwards).limit(1)),
+        previous_id=session.scalar(ids.where(before).order_by(backwards).limit(1)),
         next_id=session.scalar(ids.where(after).order_by(forwards).limit(1)),
-        next_open_id=session.scalar(still_open.order_by(after.desc(), forwards).limit(1)),
-        position=session.scalar(select(func.count(Image.id)).where(alive, Image.name <= image.name)) or 0,
-        total=session.scalar(select(func.count(Image.id)).where(alive)) or 0,
+        next_open_id=next_open,
+        position=session.scalar(select(func.count()).select_from(Image).where(alive, Image.name <= image.name)) or 0,
+        total=image_count(session, here),
     )
+
+
+def _first(session: Session, queries: Sequence[Select[int]]) -> int | None:
+    """Return the image whose name is the first of all that the queries select."""
+    by_name = [query.with_only_columns(Image.name, Image.id).order_by(Image.name).limit(1) for query in queries]
+    found = [row for query in by_name for row in session.execute(query)]
+    return min(found, key=lambda row: row.name).id if found else None

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
-from sqlalchemy import ColumnElement, Select, func, select
+from sqlalchemy import ColumnElement, Select, select
 from sqlalchemy.orm import InstrumentedAttribute, Session
 
-from app.db.models import REVIEW_STATES, Camera, Dataset, Image, Review, Run, RunImage
+from app.db.models import REVIEW_STATES, Camera, Dataset, Image, ImageTally, Review
 from app.errors import InvalidInput
 from app.services.image_candidates import candidate_conditions
-from app.services.image_summaries import ImageSummary, latest_work, select_summaries, summaries_of
-from app.services.paging import Order, Page, checked_limit, page_of
+from app.services.image_summaries import ImageSummary, image_summaries, select_summaries
+from app.services.paging import Counted, Order, Page, checked_limit, counted_up_to, page_of
+from app.services.tallies import counts_by, image_count, of_dataset
+
+Chosen = TypeVar("Chosen", bound=Select[*tuple[Any, ...]])
 
 PRELABEL_STATES = ("none", "queued", "running", "done", "failed")
 
@@ -104,13 +109,14 @@ def list_images(
     if order is None:
         raise InvalidInput(f"images can't be sorted by {sort!r:.60}", where="sort", expected=", ".join(ORDERS))
     limit = checked_limit(limit)
-    matching = select_images(dataset, chosen)
-    total = session.scalar(matching.with_only_columns(func.count(Image.id))) or 0
+    matching = _choose(select(Image.id, order.column), dataset, chosen)
     query = matching.where(order.after(cursor)) if cursor else matching
     rows = session.execute(query.order_by(*order.clauses()).limit(limit + 1)).all()
-    column = order.column.key
-    page = page_of(rows, limit, order, lambda row: (getattr(row.Image, column), row.Image.id), total)
-    return Page(tuple(summaries_of(session, page.items)), page.next_cursor, page.total)
+    whole = cursor is None and len(rows) <= limit
+    total = Counted(len(rows)) if whole else _total(session, dataset, chosen, matching)
+    page = page_of(rows, limit, order, lambda row: (row[1], row[0]), total)
+    summaries = image_summaries(session, [row[0] for row in page.items])
+    return Page(tuple(summaries), page.next_cursor, page.total, page.total_exact)
 
 
 def select_images(dataset: Dataset, chosen: ImageFilter) -> Select[Image, Review, str]:
@@ -119,68 +125,56 @@ def select_images(dataset: Dataset, chosen: ImageFilter) -> Select[Image, Review
     Raises:
         InvalidInput: On an unknown status, prelabel state or verdict.
     """
-    query = (
-        select_summaries()
-        .where(Image.dataset_id == dataset.id)
-        .where(Image.deleted_at.is_not(None) if chosen.deleted else Image.deleted_at.is_(None))
-    )
-    if chosen.status is not None:
-        query = query.where(Review.status == _known(chosen.status, REVIEW_STATES, "status"))
-    if chosen.source is not None:
-        query = query.where(_equals(Image.source, chosen.source))
-    if chosen.sequence is not None:
-        query = query.where(_equals(Image.sequence, chosen.sequence))
-    if chosen.camera is not None:
-        query = query.where(Image.camera_id == chosen.camera)
-    if chosen.search:
-        query = query.where(Image.name.icontains(chosen.search, autoescape=True))
-    if chosen.assignee is not None:
-        query = query.where(_equals(Image.assignee, chosen.assignee))
-    query = query.where(*candidate_conditions(chosen.person, chosen.verdict, chosen.min_score, chosen.max_score))
-    if chosen.prelabel is not None:
-        state = _known(chosen.prelabel, PRELABEL_STATES, "prelabel")
-        latest = latest_work(Run.dataset_id == dataset.id)
-        query = query.outerjoin(latest, latest.c.image_id == Image.id).outerjoin(RunImage, RunImage.id == latest.c.id)
-        query = query.where(func.coalesce(RunImage.status, "none") == state)
-    return query
+    return _choose(select_summaries(), dataset, chosen)
 
 
 def facets(session: Session, dataset: Dataset) -> Facets:
     """Return the values that occur among a dataset's images, each with its number of images."""
-    alive = (Image.dataset_id == dataset.id) & Image.deleted_at.is_(None)
-    cameras = session.execute(
-        select(Camera.id, Camera.name, func.count())
-        .join(Image, Image.camera_id == Camera.id)
-        .where(alive)
-        .group_by(Camera.id, Camera.name)
-        .order_by(Camera.name)
-    )
-    statuses = select(Review.status, func.count()).join(Image).where(alive).group_by(Review.status)
-    latest = latest_work(Run.dataset_id == dataset.id)
-    state = func.coalesce(RunImage.status, "none")
-    prelabel = (
-        select(state, func.count())
-        .select_from(Image)
-        .outerjoin(latest, latest.c.image_id == Image.id)
-        .outerjoin(RunImage, RunImage.id == latest.c.id)
-        .where(alive)
-        .group_by(state)
-    )
+    alive = of_dataset(dataset)
+    of_camera = counts_by(session, ImageTally.camera_id, alive)
+    cameras = session.execute(select(Camera.id, Camera.name).where(Camera.id.in_(of_camera)).order_by(Camera.name))
     return Facets(
-        sources=_facet(session, Image.source, alive),
-        sequences=_facet(session, Image.sequence, alive),
-        assignees=_facet(session, Image.assignee, alive),
-        cameras=tuple(CameraFacet(*row) for row in cameras),
-        status=dict.fromkeys(REVIEW_STATES, 0) | dict(session.execute(statuses).all()),
-        prelabel=dict.fromkeys(PRELABEL_STATES, 0) | dict(session.execute(prelabel).all()),
+        sources=_facet(counts_by(session, ImageTally.source, alive)),
+        sequences=_facet(counts_by(session, ImageTally.sequence, alive)),
+        assignees=_facet(counts_by(session, ImageTally.assignee, alive)),
+        cameras=tuple(CameraFacet(camera_id, name, of_camera[camera_id]) for camera_id, name in cameras),
+        status=dict.fromkeys(REVIEW_STATES, 0) | dict(counts_by(session, ImageTally.review_status, alive)),
+        prelabel=dict.fromkeys(PRELABEL_STATES, 0) | dict(counts_by(session, ImageTally.prelabel, alive)),
     )
 
 
-def _facet(
-    session: Session, column: InstrumentedAttribute[str | None], alive: ColumnElement[bool]
-) -> tuple[Facet, ...]:
-    rows = session.execute(select(column, func.count()).where(alive).group_by(column)).all()
-    return tuple(Facet(value, count) for value, count in sorted(rows, key=lambda row: (row[0] is None, row[0] or "")))
+def _choose(query: Chosen, dataset: Dataset, chosen: ImageFilter) -> Chosen:
+    query = query.where(Image.dataset_id == dataset.id)
+    query = query.where(Image.deleted_at.is_not(None) if chosen.deleted else Image.deleted_at.is_(None))
+    query = query.where(*_exact_conditions(Image, chosen))
+    if chosen.search:
+        query = query.where(Image.name.icontains(chosen.search, autoescape=True))
+    return query.where(*candidate_conditions(chosen.person, chosen.verdict, chosen.min_score, chosen.max_score))
+
+
+def _exact_conditions(table: type[Image | ImageTally], chosen: ImageFilter) -> list[ColumnElement[bool]]:
+    """Return the conditions that images can be counted by, on the images or on their tallies."""
+    conditions: list[ColumnElement[bool]] = []
+    if chosen.status is not None:
+        conditions.append(table.review_status == _known(chosen.status, REVIEW_STATES, "status"))
+    if chosen.prelabel is not None:
+        conditions.append(table.prelabel == _known(chosen.prelabel, PRELABEL_STATES, "prelabel"))
+    if chosen.camera is not None:
+        conditions.append(table.camera_id == chosen.camera)
+    words = ((table.source, chosen.source), (table.sequence, chosen.sequence), (table.assignee, chosen.assignee))
+    conditions += [_equals(column, value) for column, value in words if value is not None]
+    return conditions
+
+
+def _total(session: Session, dataset: Dataset, chosen: ImageFilter, matching: Select[*tuple[Any, ...]]) -> Counted:
+    if chosen.search or (chosen.person, chosen.verdict, chosen.min_score, chosen.max_score) != (None,) * 4:
+        return counted_up_to(session, matching)
+    here = (ImageTally.dataset_id == dataset.id, ImageTally.deleted.is_(chosen.deleted))
+    return Counted(image_count(session, *here, *_exact_conditions(ImageTally, chosen)))
+
+
+def _facet(counts: Mapping[str | None, int]) -> tuple[Facet, ...]:
+    return tuple(Facet(*row) for row in sorted(counts.items(), key=lambda row: (row[0] is None, row[0] or "")))
 
 
 def _equals(column: InstrumentedAttribute[str | None], value: str) -> ColumnElement[bool]:

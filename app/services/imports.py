@@ -16,7 +16,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Dataset
 from app.db.session import Database
-from app.errors import ClearLinesError
+from app.errors import ClearLinesError, Unavailable
 from app.formats.dataset import DatasetImage, read_dataset, reference_of
 from app.formats.files import read_file
 from app.formats.reference_camera import ReferenceCamera
@@ -120,11 +120,17 @@ def import_images(importer: Importer, source: ImageSource, origin: str) -> Impor
         importer: Where they go.
         source: Where they come from.
         origin: Name of the folder or file, for the audit.
+
+    Raises:
+        Unavailable: When nothing can be stored now; what was imported stays, and the same again goes on from there.
     """
     outcome = _Outcome()
     for number, entry in enumerate(source.images, start=1):
         try:
             _import_image(importer, source, entry, outcome)
+        except Unavailable:  # nor would the next one be stored
+            _report(importer, outcome, origin)
+            raise
         except ClearLinesError as error:
             outcome.fail(entry.path, error)
         if importer.progress:

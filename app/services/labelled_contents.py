@@ -45,15 +45,21 @@ def images_done(dataset: Dataset) -> Select[Image]:
     )
 
 
-def labelled_contents(session: Session, dataset: Dataset, find: Find | None = None) -> list[LabelledContent]:
+def labelled_contents(
+    session: Session, dataset: Dataset, find: Find | None = None, *, most: int | None = None
+) -> list[LabelledContent]:
     """Return candidates and labels of the images whose review is done, by name.
 
     Args:
         session: Any session.
         dataset: The dataset.
         find: Detects the candidates of an image where they aren't known.
+        most: At most so many images, spread evenly over all of them; all when left out.
     """
-    images = session.scalars(images_done(dataset).order_by(Image.name)).all()
+    ids = session.scalars(images_done(dataset).with_only_columns(Image.id).order_by(Image.name)).all()
+    if most is not None and len(ids) > most:
+        ids = [ids[int(place)] for place in np.linspace(0, len(ids) - 1, most)]
+    images = session.scalars(select(Image).where(Image.id.in_(ids)).order_by(Image.name)).all()
     return [labelled_content(session, image, find) for image in images]
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from sqlalchemy import ColumnElement, delete, exists, select
+from sqlalchemy import ColumnElement, and_, delete, exists, select
 from sqlalchemy.orm import Session
 
 from app.db.models import Image, Lease
@@ -76,7 +76,7 @@ def renew_lease(
     """
     get_image(session, image_id)
     image = session.get_one(Image, image_id, with_for_update=True)  # of two that come at once, the first one holds
-    session.execute(delete(Lease).where(Lease.expires_at <= now))
+    session.execute(delete(Lease).where(~_is_there(now)))
     leases = list(session.scalars(select(Lease).where(Lease.image_id == image_id)))
     mine = next((lease for lease in leases if lease.client_id == client_id), None)
     if mine is None:
@@ -121,11 +121,16 @@ def is_held_by_another(person: str | None, now: datetime) -> ColumnElement[bool]
         .where(
             Lease.image_id == Image.id,
             Lease.holds.is_(True),
-            Lease.expires_at > now,
+            _is_there(now),
             Lease.person.is_distinct_from(person),
         )
         .correlate(Image)
     )
+
+
+def _is_there(now: datetime) -> ColumnElement[bool]:
+    """Return the condition that a lease isn't over; one that ends later than a lease can is of a clock put back."""
+    return and_(Lease.expires_at > now, Lease.expires_at <= now + LASTS)
 
 
 def _state(leases: Sequence[Lease], expires_at: datetime, person: str | None) -> LeaseState:

@@ -13,14 +13,15 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sqlalchemy import and_, select, update
+from sqlalchemy import and_, exists, select, update
 from sqlalchemy.orm import Session
 
 from app.db.models import Camera, CameraEstimate, Image, Run, RunImage, Segment, SegmentState
 from app.errors import ClearLinesError
 from app.services.candidates import is_current, refresh_counts, verdict_of_segment
 from app.services.carrying import stored_polyline
-from app.services.run_queue import UNFINISHED, count_states, unsettled_runs
+from app.services.run_queue import UNFINISHED, unsettled_runs
+from app.services.tallies import states_of_runs
 from app.vision.segments import Segments
 
 MOST_LENS_IMAGES = 200
@@ -54,16 +55,19 @@ def pending_estimates(session: Session, run_ids: Collection[int] | None = None) 
         run_ids: Of these runs; of all whose images are finished when left out.
     """
     runs = _joint_runs(session) if run_ids is None else run_ids
+    # camera by camera, of which there are few: asked after each result, it mustn't read all of the run's images
+    finished = (
+        exists()
+        .where(Image.camera_id == Camera.id, RunImage.image_id == Image.id)
+        .where(RunImage.run_id == Run.id, RunImage.status == "done")
+        .correlate(Run, Camera)
+    )
     rows = session.execute(
-        select(RunImage.run_id, Camera.id, Camera.width, Camera.height)
-        .join(Image, Image.id == RunImage.image_id)
-        .join(Camera, Camera.id == Image.camera_id)
-        .outerjoin(
-            CameraEstimate, and_(CameraEstimate.run_id == RunImage.run_id, CameraEstimate.camera_id == Camera.id)
-        )
-        .where(RunImage.run_id.in_(runs), RunImage.status == "done", CameraEstimate.id.is_(None))
-        .group_by(RunImage.run_id, Camera.id, Camera.width, Camera.height)
-        .order_by(RunImage.run_id, Camera.id)
+        select(Run.id, Camera.id, Camera.width, Camera.height)
+        .join(Camera, Camera.dataset_id == Run.dataset_id)
+        .outerjoin(CameraEstimate, and_(CameraEstimate.run_id == Run.id, CameraEstimate.camera_id == Camera.id))
+        .where(Run.id.in_(runs), CameraEstimate.id.is_(None), finished)
+        .order_by(Run.id, Camera.id)
     )
     return [EstimateStep(*row) for row in rows]
 
@@ -203,7 +207,7 @@ def finish_settled_runs(session: Session, now: datetime) -> list[int]:
         if joint and (pending_estimates(session, [run.id]) or pending_judgements(session, 1, [run.id])):
             continue
         session.refresh(run, with_for_update=True)
-        counts = count_states(session, [run.id])[run.id]
+        counts = states_of_runs(session, [run.id])[run.id]
         if run.status not in UNFINISHED or any(counts.get(state) for state in UNFINISHED):
             continue  # cancelled, or retried, by someone else in between
         failed_alone = bool(counts.get("failed")) and not counts.get("done")

@@ -10,14 +10,16 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any, Generic, TypeGuard, TypeVar
 
-from sqlalchemy import ColumnElement, Integer, literal, tuple_
-from sqlalchemy.orm import InstrumentedAttribute
+from sqlalchemy import ColumnElement, Integer, Select, func, literal, select, tuple_
+from sqlalchemy.orm import InstrumentedAttribute, Session
 
 from app.db.models import UtcDateTime
 from app.errors import InvalidInput
 from app.formats.naming import has_control_characters
 
 MAX_LIMIT = 1_000
+COUNTED = 1_000
+"""As far as rows are counted that no tally counts."""
 
 Item = TypeVar("Item")
 Other = TypeVar("Other")
@@ -32,15 +34,25 @@ class Page(Generic[Item]):
         items: The items, in the list's order.
         next_cursor: Asks for the next page; ``None`` on the last one.
         total: Items on all pages together.
+        total_exact: Whether that is all; else there are more than ``total``, and nobody counted on.
     """
 
     items: tuple[Item, ...]
     next_cursor: str | None
     total: int
+    total_exact: bool = True
 
     def map(self, function: Callable[[Item], Other]) -> Page[Other]:
         """Return the page with each item replaced by the function of it."""
-        return Page(tuple(function(item) for item in self.items), self.next_cursor, self.total)
+        return Page(tuple(function(item) for item in self.items), self.next_cursor, self.total, self.total_exact)
+
+
+@dataclass(frozen=True)
+class Counted:
+    """How many rows there are; where that isn't exact, there are more."""
+
+    number: int
+    exact: bool = True
 
 
 @dataclass(frozen=True)
@@ -87,7 +99,7 @@ class Order:
 
 
 def page_of(
-    rows: Sequence[Any], limit: int, order: Order, key: Callable[[Any], tuple[Any, int]], total: int
+    rows: Sequence[Any], limit: int, order: Order, key: Callable[[Any], tuple[Any, int]], total: int | Counted
 ) -> Page[Any]:
     """Make a page of rows that were selected with ``limit + 1``: the surplus row says that there is a next page.
 
@@ -96,11 +108,25 @@ def page_of(
         limit: Rows of a page.
         order: The order they were selected in.
         key: Value of the order's column, and id, of a row.
-        total: Rows on all pages.
+        total: Rows on all pages, or how far they were counted.
     """
     shown = tuple(rows[:limit])
     cursor = write_cursor(order.name, *key(shown[-1])) if len(rows) > limit else None
-    return Page(shown, cursor, total)
+    counted = Counted(total) if isinstance(total, int) else total
+    return Page(shown, cursor, counted.number, counted.exact)
+
+
+def counted_up_to(session: Session, query: Select[*tuple[Any, ...]], most: int = COUNTED) -> Counted:
+    """Count the rows of a query, but not for longer than it takes to know that there are very many.
+
+    Args:
+        session: Any session.
+        query: What to count; what it selects and its order don't matter.
+        most: Rows from which on the number doesn't matter any more.
+    """
+    some = query.with_only_columns(literal(1), maintain_column_froms=True).order_by(None).limit(most + 1).subquery()
+    number = session.scalar(select(func.count()).select_from(some)) or 0
+    return Counted(min(number, most), exact=number <= most)
 
 
 def checked_limit(limit: int) -> int:

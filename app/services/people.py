@@ -6,11 +6,12 @@ import unicodedata
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from sqlalchemy import func, select
+from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import Dataset, Decision, Image, Review
+from app.db.models import Dataset, ImagePerson, ImageTally, Review
 from app.errors import InvalidInput
+from app.services.tallies import counts_by, of_dataset
 
 PERSON_LENGTH = 80
 WORK = ("judge", "accept", "take_over", "undo", "redo")
@@ -56,13 +57,10 @@ def people_of(session: Session, dataset: Dataset, decided: Mapping[str, int]) ->
         dataset: The dataset.
         decided: Number of verdicts that each person gave in it.
     """
-    images = (
-        select(Image.assignee, func.count(), func.count().filter(Review.status != "open"))
-        .join(Review, Review.image_id == Image.id)
-        .where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None), Image.assignee.is_not(None))
-        .group_by(Image.assignee)
-    )
-    assigned = {person: (count, done) for person, count, done in session.execute(images) if person is not None}
+    given = ImageTally.assignee.is_not(None)
+    images = counts_by(session, ImageTally.assignee, of_dataset(dataset), given)
+    done = counts_by(session, ImageTally.assignee, of_dataset(dataset), given, ImageTally.review_status != "open")
+    assigned = {person: (count, done.get(person, 0)) for person, count in images.items()}
     return [
         PersonEntry(person, *assigned.get(person, (0, 0)), decided.get(person, 0))
         for person in sorted({*assigned, *decided}, key=lambda name: (name.casefold(), name))
@@ -72,11 +70,7 @@ def people_of(session: Session, dataset: Dataset, decided: Mapping[str, int]) ->
 def first_reviewers(session: Session, image_ids: Collection[int]) -> dict[int, set[str]]:
     """Return who judged candidates of images, or said that the image is done."""
     found: dict[int, set[str]] = {image_id: set() for image_id in image_ids}
-    judged = (
-        select(Decision.image_id, Decision.person)
-        .where(Decision.image_id.in_(image_ids), Decision.kind.in_(WORK), Decision.person.is_not(None))
-        .distinct()
-    )
+    judged = select(ImagePerson.image_id, ImagePerson.person).where(ImagePerson.image_id.in_(image_ids))
     finished = select(Review.image_id, Review.person).where(
         Review.image_id.in_(image_ids), Review.person.is_not(None), Review.status != "open"
     )

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from sqlalchemy import and_, delete, exists, or_, select, text, update
+from sqlalchemy import delete, exists, or_, select, text, update
 from sqlalchemy.orm import Session
 
 from app.db.models import (
@@ -16,15 +15,18 @@ from app.db.models import (
     Dataset,
     Decision,
     Image,
+    ImageTally,
     Run,
     RunImage,
+    RunTally,
     SecondDecision,
     Segment,
     Submission,
 )
 from app.db.session import Database
-from app.services.batches import in_batches
+from app.services.batches import batches_of, in_batches
 from app.services.blob_discarding import NAMED_BY
+from app.services.blob_keeping import blobs_may_go
 from app.services.candidates import refresh_counts, verdict_of_segment
 from app.storage import BlobStore
 
@@ -73,8 +75,14 @@ def purge(database: Database, blobs: BlobStore, now: datetime, *, grace: timedel
 def _purge_images(database: Database, deadline: datetime) -> int:
     """Images deleted by themselves, and all images of deleted datasets."""
     with database.read() as session:
-        over = select(Image.id).join(Dataset).where((Image.deleted_at <= deadline) | (Dataset.deleted_at <= deadline))
-        ids = session.scalars(over).all()
+        # two questions, each of an index: one with "or" in it would read all images
+        gone = select(Dataset.id).where(Dataset.deleted_at <= deadline)
+        ids = sorted(
+            {
+                *session.scalars(select(Image.id).where(Image.deleted_at.is_not(None), Image.deleted_at <= deadline)),
+                *session.scalars(select(Image.id).where(Image.dataset_id.in_(gone))),
+            }
+        )
     for batch in in_batches(ids, IMAGES_AT_ONCE):
         with database.write() as session:
             still_over = (
@@ -114,6 +122,7 @@ def _purge_run(session: Session, run: Run, now: datetime) -> None:
     retire = update(Segment).where(Segment.id.in_(undecided)).values(retired_at=now)
     session.execute(retire.execution_options(synchronize_session=False))
     session.execute(delete(Run).where(Run.id == run.id))
+    session.execute(delete(RunTally).where(RunTally.run_id == run.id))
     for batch in in_batches(images):
         refresh_counts(session, batch)
 
@@ -128,7 +137,10 @@ def _purge_calibrations(database: Database, deadline: datetime) -> int:
 def _purge_datasets(database: Database, deadline: datetime) -> int:
     with database.write() as session:
         ids = session.scalars(select(Dataset.id).where(Dataset.deleted_at <= deadline)).all()
+        runs = session.scalars(select(Run.id).where(Run.dataset_id.in_(ids))).all()
         session.execute(delete(Dataset).where(Dataset.id.in_(ids)))
+        session.execute(delete(ImageTally).where(ImageTally.dataset_id.in_(ids)))  # they add up to nothing
+        session.execute(delete(RunTally).where(RunTally.run_id.in_(runs)))
     return len(ids)
 
 
@@ -140,35 +152,40 @@ def _purge_invalid(database: Database, deadline: datetime) -> None:
 
 
 def _purge_blobs(database: Database, blobs: BlobStore) -> int:
-    """Blobs that no row names; what was frozen or submitted outlives its dataset."""
-    unused = and_(*(~exists().where(column == Blob.sha256) for column in NAMED_BY))
+    """Blobs that no row names, unless a backup copies them now; what was frozen or submitted outlives its dataset."""
+    unused = select(Blob.sha256).where(*(~exists().where(column == Blob.sha256) for column in NAMED_BY))
+    with database.read() as session:  # all blobs are looked at, which takes a while: nobody waits for that
+        found = session.scalars(unused).all()
     removed = 0
-    while True:
+    for batch in in_batches(found, BLOBS_AT_ONCE):
         with database.write() as session:
+            if not blobs_may_go(session):
+                return removed
             _keep_others_from_adding(session)
-            batch = session.scalars(select(Blob.sha256).where(unused).limit(BLOBS_AT_ONCE)).all()
-            session.execute(delete(Blob).where(Blob.sha256.in_(batch)))
-            removed += sum(blobs.delete(sha256) for sha256 in batch)
-        if len(batch) < BLOBS_AT_ONCE:
-            return removed
+            still = session.scalars(unused.where(Blob.sha256.in_(batch))).all()
+            session.execute(delete(Blob).where(Blob.sha256.in_(still)))
+            removed += blobs.delete_all(still)
+    return removed
 
 
 def _purge_orphans(database: Database, blobs: BlobStore, now: datetime) -> int:
     """Files without a row: what was received and then refused, as a second image of one name is."""
     removed = 0
-    for batch in in_batches(list(_old_files(blobs, now)), BLOBS_AT_ONCE):
+    for batch in batches_of(_old_files(blobs, now), BLOBS_AT_ONCE):
         with database.write() as session:
+            if not blobs_may_go(session):
+                return removed
             _keep_others_from_adding(session)
             known = set(session.scalars(select(Blob.sha256).where(Blob.sha256.in_(batch))))
-            removed += sum(blobs.delete(sha256) for sha256 in batch if sha256 not in known)
+            removed += blobs.delete_all([sha256 for sha256 in batch if sha256 not in known])
     return removed
 
 
 def _old_files(blobs: BlobStore, now: datetime) -> Iterator[str]:
     limit = (now - YOUNG).timestamp()
-    for path in blobs.root.glob("??/??/*"):
-        if re.fullmatch(r"[0-9a-f]{64}", path.name) and path.stat().st_mtime < limit:
-            yield path.name
+    for blob in blobs.iterate():
+        if blob.modified is not None and blob.modified < limit:
+            yield blob.sha256
 
 
 def _keep_others_from_adding(session: Session) -> None:

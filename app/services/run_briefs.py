@@ -6,10 +6,11 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from datetime import datetime
 
-from sqlalchemy import func, select
+from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import Run, RunImage
+from app.db.models import Run
+from app.services.tallies import states_of_runs
 
 
 @dataclass(frozen=True)
@@ -39,14 +40,7 @@ def run_briefs(session: Session, run_ids: Collection[int]) -> dict[int, RunBrief
     """Return the runs that exist, by id."""
     if not run_ids:
         return {}
-    counts: dict[int, dict[str, int]] = {}
-    states = (
-        select(RunImage.run_id, RunImage.status, func.count())
-        .where(RunImage.run_id.in_(run_ids))
-        .group_by(RunImage.run_id, RunImage.status)
-    )
-    for run_id, status, count in session.execute(states):
-        counts.setdefault(run_id, {})[status] = count
+    counts = states_of_runs(session, run_ids)
     runs = select(Run.id, Run.status, Run.created_at, Run.finished_at).where(Run.id.in_(run_ids))
     return {
         run_id: RunBrief(

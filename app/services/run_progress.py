@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy import func, select
+from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from app.db.models import Camera, CameraEstimate, Dataset, Image, Run, RunImage
+from app.db.models import Camera, CameraEstimate, Dataset, Image, Run, RunImage, RunTally
 from app.services.paging import Order, Page, checked_limit, page_of
 from app.services.run_briefs import WorkCounts, run_briefs
 from app.services.run_queue import UNFINISHED
 from app.services.runs import get_run
+from app.services.tallies import states_of_runs, summed
 
 PACE_IMAGES = 30
 """Images that the pace is taken from, the latest ones: their size may differ from the first ones'."""
@@ -141,9 +142,12 @@ def run_images(
     query = (
         select(RunImage, Image.id, Image.name)
         .join(Image, Image.id == RunImage.image_id)
-        .where(RunImage.run_id == run.id, *([RunImage.status == status] if status else []))
+        # the dataset's index gives its images in the order of their names; without it all of the run's would be sorted
+        .where(RunImage.run_id == run.id, Image.dataset_id == run.dataset_id)
+        .where(*([RunImage.status == status] if status else []))
     )
-    total = session.scalar(select(func.count()).select_from(query.subquery())) or 0
+    states = states_of_runs(session, [run.id])[run.id]
+    total = states.get(status, 0) if status else sum(states.values())
     if cursor:
         query = query.where(BY_IMAGE_NAME.after(cursor))
     rows = session.execute(query.order_by(*BY_IMAGE_NAME.clauses()).limit(limit + 1)).all()
@@ -184,15 +188,13 @@ def _summaries(session: Session, runs: Sequence[Run], now: datetime, grace: time
 
 
 def _changes(session: Session, run_ids: Sequence[int]) -> dict[int, tuple[int, RunChanges]]:
-    names = ("candidates", "carried", "kept_unmatched", "already_there", "retired", "discarded")
-    sums = [func.coalesce(func.sum(RunImage.changes[name].as_integer()), 0) for name in names]
-    reopened = func.count().filter(RunImage.changes["reopened"].as_boolean())
-    rows: Iterable[Any] = session.execute(
-        select(RunImage.run_id, reopened, *sums)
-        .where(RunImage.run_id.in_(run_ids), RunImage.status == "done")
-        .group_by(RunImage.run_id)
-    )
-    return {row[0]: (int(row[2]), RunChanges(*(int(value) for value in row[3:]), reopened=int(row[1]))) for row in rows}
+    names = ("candidates", *(field.name for field in fields(RunChanges)))
+    rows = session.execute(
+        select(RunTally.run_id, *(summed(getattr(RunTally, name)) for name in names))
+        .where(RunTally.run_id.in_(run_ids))
+        .group_by(RunTally.run_id)
+    ).all()
+    return {row[0]: (int(row[1]), RunChanges(*(int(value) for value in row[2:]))) for row in rows}
 
 
 def _cameras(session: Session, run_ids: Sequence[int]) -> dict[int, list[CameraResult]]:

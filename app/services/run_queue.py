@@ -3,7 +3,8 @@
 A claim is a row's id with its number of attempts. A result is stored only while the row still runs at that attempt, so
 a result that comes twice, or after the work was taken back or cancelled, changes nothing.
 
-Locks are taken in this order everywhere: run, images, run_images.
+Locks are taken in this order everywhere: run, images (by id), run_images. Triggers write the state of an image's newest
+work into the image's row, so whoever changes states holds the images first.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import ColumnElement, Select, func, or_, select, update
+from sqlalchemy import Select, exists, or_, select, update
 from sqlalchemy.orm import Session
 
 from app.db.models import Dataset, Image, Run, RunImage
 from app.errors import ClearLinesError
+from app.services.batches import in_batches
 
 UNFINISHED = ("queued", "running")
 
@@ -46,17 +48,21 @@ class Claim:
 def claim_images(session: Session, limit: int, now: datetime) -> list[Claim]:
     """Take up to ``limit`` queued images, oldest run first; they count as running from here on."""
     claims: list[Claim] = []
-    queued = _workable(RunImage.status == "queued").with_only_columns(RunImage.run_id).distinct()
-    for run_id in session.scalars(queued.order_by(RunImage.run_id).limit(limit)).all():
+    waiting = exists().where(RunImage.run_id == Run.id, RunImage.status == "queued").correlate(Run)
+    queued = _workable_runs().where(waiting).order_by(Run.id)
+    for run_id in session.scalars(queued.limit(limit)).all():
         run = session.get_one(Run, run_id, with_for_update=True, populate_existing=True)
         if run.status not in UNFINISHED or len(claims) == limit:
             continue
+        waiting_here = (RunImage.run_id == run_id, RunImage.status == "queued")
+        next_ones = select(RunImage.id, RunImage.image_id).where(*waiting_here).order_by(RunImage.id)
+        found = session.execute(next_ones.limit(limit - len(claims))).all()
+        hold_images(session, [image_id for _, image_id in found])
         rows = session.execute(
             select(RunImage, Image.name, Image.sha256)
             .join(Image, Image.id == RunImage.image_id)
-            .where(RunImage.run_id == run_id, RunImage.status == "queued")
+            .where(RunImage.id.in_([row_id for row_id, _ in found]), *waiting_here)
             .order_by(RunImage.id)
-            .limit(limit - len(claims))
             .with_for_update(of=RunImage)
         ).all()
         run.status = "running"
@@ -72,7 +78,14 @@ def claim_images(session: Session, limit: int, now: datetime) -> list[Claim]:
 
 def has_queued_images(session: Session) -> bool:
     """Whether any image waits to be claimed, or is claimed by a dispatcher."""
-    return session.scalar(_workable(RunImage.status.in_(UNFINISHED)).limit(1)) is not None
+    left = exists().where(RunImage.run_id == Run.id, RunImage.status.in_(UNFINISHED)).correlate(Run)
+    return session.scalar(_workable_runs().where(left).limit(1)) is not None
+
+
+def hold_images(session: Session, image_ids: Collection[int]) -> None:
+    """Hold images before the state of work on them changes; see the order of locks above."""
+    for batch in in_batches(sorted(image_ids)):
+        session.execute(select(Image.id).where(Image.id.in_(batch)).order_by(Image.id).with_for_update(key_share=True))
 
 
 def claimed_row(session: Session, claim: Claim) -> RunImage | None:
@@ -105,6 +118,7 @@ def charge_attempt(session: Session, claim: Claim, now: datetime) -> Claim | Non
 
 def put_back(session: Session, claims: Sequence[Claim]) -> None:
     """Queue work again that was stopped on purpose; the attempt isn't counted."""
+    hold_images(session, {claim.image_id for claim in claims})
     for claim in claims:
         row = claimed_row(session, claim)
         if row is not None:
@@ -125,10 +139,11 @@ def release_lost(session: Session, max_attempts: int, *, silent_since: datetime 
     Returns:
         How many images were taken back.
     """
-    query = select(RunImage).where(RunImage.status == "running")
+    lost = [RunImage.status == "running"]
     if silent_since is not None:
-        query = query.where(or_(RunImage.heartbeat_at.is_(None), RunImage.heartbeat_at < silent_since))
-    rows = session.scalars(query.with_for_update(skip_locked=True)).all()
+        lost.append(or_(RunImage.heartbeat_at.is_(None), RunImage.heartbeat_at < silent_since))
+    hold_images(session, set(session.scalars(select(RunImage.image_id).where(*lost))))
+    rows = session.scalars(select(RunImage).where(*lost).with_for_update(skip_locked=True)).all()
     for row in rows:
         row.heartbeat_at = None
         if row.attempts < max_attempts:
@@ -141,6 +156,7 @@ def release_lost(session: Session, max_attempts: int, *, silent_since: datetime 
 
 def fail_image(session: Session, claim: Claim, error: dict[str, Any], now: datetime) -> bool:
     """Let one image fail alone, with its reason; False when the claim doesn't hold any more."""
+    hold_images(session, [claim.image_id])
     row = claimed_row(session, claim)
     if row is None:
         return False
@@ -170,24 +186,10 @@ def unsettled_runs(session: Session, limit: int = 20) -> Sequence[Run]:
     ).all()
 
 
-def count_states(session: Session, run_ids: Collection[int]) -> dict[int, dict[str, int]]:
-    """Count the images of runs by state."""
-    rows = session.execute(
-        select(RunImage.run_id, RunImage.status, func.count())
-        .where(RunImage.run_id.in_(run_ids))
-        .group_by(RunImage.run_id, RunImage.status)
-    )
-    counts: dict[int, dict[str, int]] = {run_id: {} for run_id in run_ids}
-    for run_id, status, number in rows:
-        counts[run_id][status] = number
-    return counts
-
-
-def _workable(*conditions: ColumnElement[bool]) -> Select[int, int]:
-    """Select id and run of work of runs that are neither deleted nor over."""
+def _workable_runs() -> Select[int]:
+    """Select the runs that are neither deleted nor over; there are few of them, whatever they have to do."""
     return (
-        select(RunImage.id, RunImage.run_id)
-        .join(Run, Run.id == RunImage.run_id)
+        select(Run.id)
         .join(Dataset, Dataset.id == Run.dataset_id)
-        .where(Run.status.in_(UNFINISHED), Run.deleted_at.is_(None), Dataset.deleted_at.is_(None), *conditions)
+        .where(Run.status.in_(UNFINISHED), Run.deleted_at.is_(None), Dataset.deleted_at.is_(None))
     )

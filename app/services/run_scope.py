@@ -9,6 +9,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Dataset, Image, Run, RunImage
 from app.errors import Conflict, InvalidInput
+from app.services.batches import in_batches
 from app.services.run_queue import UNFINISHED
 
 
@@ -24,14 +25,17 @@ def wanted_images(session: Session, dataset: Dataset, image_ids: Sequence[int] |
         InvalidInput: On ids that are no images of the dataset.
         Conflict: When the dataset has no images.
     """
-    alive = select(Image.id).where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None)).order_by(Image.name)
-    there = session.scalars(alive).all()
+    alive = select(Image.id).where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None))
     if image_ids is None:
+        there = session.scalars(alive.order_by(Image.name)).all()
         if not there:
             raise Conflict("the dataset has no images", hint="add images first")
         return list(there)
     asked = set(image_ids)
-    unknown = sorted(asked.difference(there))
+    names: dict[int, str] = {}
+    for batch in in_batches(sorted(asked)):
+        names.update(session.execute(alive.add_columns(Image.name).where(Image.id.in_(batch))).all())
+    unknown = sorted(asked.difference(names))
     if unknown or not asked:
         raise InvalidInput(
             f"image {unknown[0]} isn't in this dataset" if unknown else "no image is named",
@@ -39,7 +43,7 @@ def wanted_images(session: Session, dataset: Dataset, image_ids: Sequence[int] |
             expected="ids of images of the dataset",
             details={"images": unknown[:100]},
         )
-    return [image_id for image_id in there if image_id in asked]
+    return sorted(names, key=lambda image_id: names[image_id])
 
 
 def refuse_busy_images(session: Session, dataset: Dataset, wanted: set[int]) -> None:
@@ -48,16 +52,13 @@ def refuse_busy_images(session: Session, dataset: Dataset, wanted: set[int]) -> 
     Raises:
         Conflict: When there are any.
     """
-    rows = session.execute(
-        select(RunImage.run_id, RunImage.image_id)
-        .join(Run, Run.id == RunImage.run_id)
-        .where(
-            Run.dataset_id == dataset.id,
-            Run.status.in_(UNFINISHED),
-            Run.deleted_at.is_(None),
-        )
+    unfinished = select(Run.id).where(
+        Run.dataset_id == dataset.id, Run.status.in_(UNFINISHED), Run.deleted_at.is_(None)
     )
-    busy = {run_id for run_id, image_id in rows if image_id in wanted}
+    busy: set[int] = set()
+    for batch in in_batches(sorted(wanted)):
+        of_these = select(RunImage.run_id).where(RunImage.run_id.in_(unfinished), RunImage.image_id.in_(batch))
+        busy.update(session.scalars(of_these.distinct()))
     if busy:
         raise Conflict(
             f"run {min(busy)} is at work on these images",

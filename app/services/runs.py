@@ -16,7 +16,7 @@ from app.services.candidates import refresh_counts
 from app.services.datasets import Deleted
 from app.services.events import record_event
 from app.services.run_parameters import RunParameters
-from app.services.run_queue import UNFINISHED
+from app.services.run_queue import UNFINISHED, hold_images
 from app.services.run_scope import refuse_busy_images, wanted_images
 from app.vision.code_version import code_version
 
@@ -46,7 +46,9 @@ def start_run(
         BrokenInstallation: When the detector isn't there.
     """
     chosen = RunParameters.from_dict(parameters)
-    session.refresh(dataset, with_for_update=True)  # of two that start at once, the second sees the first one's run
+    session.refresh(
+        dataset, with_for_update={"key_share": True}
+    )  # of two that start at once, the second sees the first one's run
     wanted = wanted_images(session, dataset, image_ids)
     refuse_busy_images(session, dataset, set(wanted))
     run = Run(
@@ -55,6 +57,7 @@ def start_run(
     session.add(run)
     session.flush()
     rows = [{"run_id": run.id, "image_id": image_id, "status": "queued", "attempts": 0} for image_id in wanted]
+    hold_images(session, wanted)
     for batch in in_batches(rows):
         session.execute(insert(RunImage), list(batch))
     _record(session, "run.started", run, now, person, images=len(wanted), parameters=run.parameters)
@@ -115,6 +118,7 @@ def retry_run(session: Session, run_id: int, now: datetime, *, person: str | Non
             "nothing of this run can be done again",
             hint="no image failed or was cancelled, or a later run has done them; start a new run instead",
         )
+    hold_images(session, {row.image_id for row in rows})
     for batch in in_batches([row.id for row in rows]):
         session.execute(
             update(RunImage)
@@ -151,6 +155,7 @@ def cancel_run(session: Session, run_id: int, now: datetime, *, person: str | No
 def delete_run(session: Session, run_id: int, now: datetime, *, grace: timedelta, person: str | None = None) -> Deleted:
     """Hide a run with its undecided candidates; what was decided on stays. One at work is cancelled first."""
     run = get_run(session, run_id, lock=True)
+    _images_where(session, _is_of(run))  # all of them, in their order, before some
     touched = _images_where(session, Image.current_run_image_id.in_(_work_of(run)))
     _set_current(session, touched, None)
     if run.status in UNFINISHED:
@@ -171,6 +176,7 @@ def restore_run(session: Session, run_id: int, now: datetime, *, person: str | N
     run = get_run(session, run_id, deleted=True, lock=True)
     if run.deleted_at is None:
         raise Conflict(f"run {run_id} isn't deleted")
+    _images_where(session, _is_of(run))
     run.deleted_at = None
     later, later_run = aliased(RunImage), aliased(Run)
     replaced = exists().where(
@@ -188,6 +194,7 @@ def restore_run(session: Session, run_id: int, now: datetime, *, person: str | N
 
 
 def _cancel(session: Session, run: Run, now: datetime) -> None:
+    _images_where(session, _is_of(run, RunImage.status.in_(UNFINISHED)))
     session.execute(
         update(RunImage)
         .where(RunImage.run_id == run.id, RunImage.status.in_(UNFINISHED))
@@ -199,6 +206,11 @@ def _cancel(session: Session, run: Run, now: datetime) -> None:
 
 def _work_of(run: Run) -> Select[int]:
     return select(RunImage.id).where(RunImage.run_id == run.id)
+
+
+def _is_of(run: Run, *conditions: ColumnElement[bool]) -> ColumnElement[bool]:
+    """Return the condition on ``Image`` that the run has work on it that is so."""
+    return Image.id.in_(select(RunImage.image_id).where(RunImage.run_id == run.id, *conditions))
 
 
 def _images_where(session: Session, *conditions: ColumnElement[bool]) -> Sequence[int]:

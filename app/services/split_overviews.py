@@ -156,14 +156,17 @@ def labels_since(session: Session, blobs: BlobStore, split: Split) -> LabelsSinc
     gone = tuple(row.name for row in rows if row.id is None)
     # labels change by decisions alone; one that was on its way while the split was frozen has an earlier time
     since = version.created_at - LATEST_DECISION
-    decided = set(
-        session.scalars(
-            select(Decision.image_id)
-            .join(SplitImage, SplitImage.image_id == Decision.image_id)
-            .where(SplitImage.version_id == version.id, Decision.created_at >= since)
-            .distinct()
-        )
+    # the decisions of an image are stored one after the other, so the last one tells; an index has it
+    latest = (
+        select(Decision.created_at)
+        .where(Decision.image_id == SplitImage.image_id)
+        .order_by(Decision.id.desc())
+        .limit(1)
+        .correlate(SplitImage)
+        .scalar_subquery()
     )
+    changed_since = select(SplitImage.image_id).where(SplitImage.version_id == version.id, latest >= since)
+    decided = {image_id for image_id in session.scalars(changed_since) if image_id is not None}
     frozen_names = {row.id: row.name for row in rows if row.id in decided}
     if not frozen_names:
         return LabelsSince((), gone)

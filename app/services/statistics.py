@@ -11,12 +11,13 @@ from typing import TypeVar
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from app.db.models import REVIEW_STATES, Dataset, Image, Review, Segment, SegmentState
+from app.db.models import REVIEW_STATES, Dataset, Image, ImageTally, Review, Segment, SegmentState
 from app.review.agreement import Kappa
 from app.services.agreements import agreement_of
 from app.services.counts import ReviewCounts
 from app.services.decision_batch import REPLAYS
 from app.services.decision_times import DecisionTimes, VerdictTimes, times_of, verdict_times
+from app.services.tallies import counts_by, of_dataset
 from app.services.time_bins import EDGES
 from app.services.work_logs import HourKey, HourWork, WorkLog
 from app.verdicts import REASONS, VERDICTS
@@ -139,10 +140,9 @@ def statistics_of(session: Session, dataset: Dataset, log: WorkLog) -> Statistic
     total = _sum(judged.values())
     by_hour = _grouped(judged, lambda key: key[0])
     agreement = agreement_of(session, dataset)
-    alive = (Image.dataset_id == dataset.id) & Image.deleted_at.is_(None)
-    status = select(Review.status, func.count()).join(Image).where(alive).group_by(Review.status)
+    status = counts_by(session, ImageTally.review_status, of_dataset(dataset))
     return Statistics(
-        images=ReviewCounts(**(dict.fromkeys(REVIEW_STATES, 0) | dict(session.execute(status).all()))),
+        images=ReviewCounts(**(dict.fromkeys(REVIEW_STATES, 0) | dict(status))),
         decisions=total.decisions,
         per_hour=_per_hour(total),
         days=_days(session, dataset, by_hour),

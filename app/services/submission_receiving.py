@@ -18,6 +18,7 @@ from app.formats.submission_problems import InvalidSubmission
 from app.services.access import Viewer, can_maintain
 from app.services.blob_discarding import discard_blob
 from app.services.blobs import add_blob_row
+from app.services.events import record_event
 from app.services.methods import MethodGiven, find_or_add_method
 from app.services.splits import current_version, get_split, is_closed
 from app.services.submission_intake import one_upload
@@ -96,6 +97,11 @@ def receive(
                 add_to_log(submission, f"received {upload.name}, {upload.size:,} bytes", now)
                 session.add(submission)
                 session.flush()
+                told = {"submission": submission.id, "split": split.slug, "bytes": upload.size}
+                dataset_id = split.dataset_id
+                record_event(
+                    session, "submission.received", now, dataset_id=dataset_id, person=viewer.name, details=told
+                )
                 return submission.id
         except ClearLinesError:
             with database.write() as session:

@@ -153,11 +153,14 @@ def change_submission(
     """
     submission = get_submission(session, viewer, submission_id, lock=True)
     require_author(viewer, submission.person)
+    told: dict[str, Any] = {}
     if visibility is not UNCHANGED:
         submission.visibility = checked_visibility(visibility)
         add_to_log(submission, f"made {visibility}", now)
+        told["visibility"] = submission.visibility
     if label is not UNCHANGED:
-        submission.label = checked_label(label)
+        submission.label = told["label"] = checked_label(label)
+    _record(session, "submission.changed", submission, viewer, now, **told)
     return submission
 
 

@@ -12,6 +12,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Dataset, Decision, Image, Review, SuggestionModel, SuggestionTraining
 from app.errors import Conflict
+from app.services.events import record_event
 from app.services.suggestion_examples import judged_candidates, teaches
 from app.services.suggestion_models import latest_model
 
@@ -80,13 +81,14 @@ def training_due(session: Session, dataset_id: int) -> TrainingDue:
     return TrainingDue(dataset_id, decisions, images, session.scalar(newest.where(Image.dataset_id == dataset_id)) or 0)
 
 
-def ask_for_training(session: Session, dataset: Dataset, now: datetime) -> TrainingDue:
+def ask_for_training(session: Session, dataset: Dataset, now: datetime, *, person: str | None = None) -> TrainingDue:
     """Have a dataset's model learnt as soon as possible, however few decisions are new.
 
     Args:
         session: A writing session.
         dataset: The dataset.
         now: When.
+        person: Who asks.
 
     Raises:
         Conflict: When there is too little to learn from.
@@ -105,6 +107,8 @@ def ask_for_training(session: Session, dataset: Dataset, now: datetime) -> Train
         row = SuggestionTraining(dataset_id=dataset.id)
         session.add(row)
     row.asked_at, row.error = now, None
+    details = {"decisions": due.n_decisions, "images": due.n_images}
+    record_event(session, "suggestions.asked", now, dataset_id=dataset.id, person=person, details=details)
     return due
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import BinaryIO
 
-from app.errors import ClearLinesError, Conflict, InvalidFile, InvalidInput, TooLarge
+from app.errors import ClearLinesError, Conflict, InvalidFile, InvalidInput, TooLarge, Unavailable
 from app.formats.archives import open_archive
 from app.formats.dataset import list_images
 from app.formats.layout import find_layout
@@ -42,6 +42,7 @@ def import_upload(importer: Importer, files: Sequence[UploadedFile]) -> ImportRe
 
     Raises:
         InvalidInput: When nothing could be used; ``details["failed"]`` has each file with its reason.
+        Unavailable: When nothing can be stored now, as `app.services.imports.import_images`.
     """
     reports: list[ImportReport] = []
     loose: dict[str, UploadedFile] = {}
@@ -56,6 +57,8 @@ def import_upload(importer: Importer, files: Sequence[UploadedFile]) -> ImportRe
                 raise Conflict("the file was given twice", where=path)
             else:
                 loose[path] = file
+        except Unavailable:
+            raise
         except ClearLinesError as error:
             reports.append(_failure(file.name, error))
     if loose:

@@ -6,6 +6,7 @@ first done: what was changed later, by an adjudication or by who had seen the di
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from sqlalchemy import ColumnElement, Select, Subquery, and_, func, or_, select
@@ -42,12 +43,20 @@ class VerdictPair:
     second_person: str | None
 
 
-def select_pairs(dataset: Dataset) -> Select[int, int, str, int, float, str, str | None, str, str | None]:
+def select_pairs(
+    dataset: Dataset, image_ids: Collection[int] | None = None
+) -> Select[int, int, str, int, float, str, str | None, str, str | None]:
     """Select the columns of ``VerdictPair`` for all candidates that both judged in second reviews that are done.
 
     What a hand drew is no candidate: whoever drew it kept it.
+
+    Args:
+        dataset: The dataset.
+        image_ids: Of these images alone.
     """
     of_dataset = (Image.dataset_id == dataset.id) & Image.deleted_at.is_(None) & (SecondReview.status == "done")
+    if image_ids is not None:
+        of_dataset &= SecondReview.image_id.in_(image_ids)
     first, second = _latest_first(of_dataset), _latest_second(of_dataset)
     return (
         select(

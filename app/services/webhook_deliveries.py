@@ -14,6 +14,8 @@ from app.services.submission_log import add_to_log
 
 SENT = "webhook "
 """How the line of the log begins that says what came of it."""
+FAILED = f"{SENT}failed: "
+"""How that line begins when nobody could be told."""
 TOLD = ("scored", "failed")
 
 

@@ -16,10 +16,11 @@ from typing import Any
 from sqlalchemy import ColumnElement, and_, case, func, or_, select
 from sqlalchemy.orm import Session
 
-from app.db.models import Decision, Image
+from app.db.models import Decision, Image, ImageTally
 from app.db.session import Database
 from app.services.decision_batch import REPLAYS
 from app.services.people import WORK
+from app.services.tallies import image_count
 from app.services.time_bins import AWAY, bin_of
 
 SETTLED = timedelta(minutes=10)
@@ -112,7 +113,7 @@ class WorkLogs:
             return log
 
     def _settled(self, session: Session, dataset_id: int, now: datetime) -> _Remembered:
-        images = session.scalar(select(func.count(Image.id)).where(Image.dataset_id == dataset_id)) or 0
+        images = image_count(session, ImageTally.dataset_id == dataset_id)
         known = self._known.get(dataset_id)
         if known is None or known.images > images:
             known = _Remembered(WorkLog(), 0, images)

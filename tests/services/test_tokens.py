@@ -20,7 +20,7 @@ from app.services.tokens import (
     record_use,
     revoke_token,
     token_of,
-    viewer_of,
+    token_viewer,
 )
 
 
@@ -34,7 +34,7 @@ def test_only_the_hash_is_kept(database: Database, now: datetime) -> None:
         assert row.sha256 == hash_of(made.text)
         assert made.text not in str(vars(row))
         assert made.text not in str([event.details for event in session.scalars(select(Event))])
-        assert viewer_of(token_of(session, made.text, now)) == Viewer("ada", "submitter")
+        assert token_viewer(*token_of(session, made.text, now)) == Viewer("ada", "submitter")
         with pytest.raises(Unauthenticated):
             token_of(session, made.text, now + timedelta(days=1))
         with pytest.raises(Unauthenticated):
@@ -51,7 +51,7 @@ def test_a_name_is_free_again_once_its_token_is_revoked(database: Database, now:
     with database.read() as session:
         with pytest.raises(Unauthenticated):
             token_of(session, first.text, now)
-        assert token_of(session, second.text, now).role == "reader"
+        assert token_of(session, second.text, now)[0].role == "reader"
         assert [token.revoked_at for token in list_tokens(session)] == [now, None]
     with database.write() as session, pytest.raises(NotFound):
         revoke_token(session, "bob", now, person=None)
@@ -76,9 +76,9 @@ def test_the_last_use_is_stored_now_and_then(sqlite_database: Database, now: dat
     with sqlite_database.write() as session:
         made = create_token(session, "ada", "reader", now, person=None)
     with sqlite_database.write() as session:
-        token = token_of(session, made.text, now)
+        token, _ = token_of(session, made.text, now)
         assert is_use_due(token, now)
-        record_use(session, token.id, now)
+        record_use(session, token, now)
         assert not is_use_due(token, now + timedelta(minutes=1))
         assert is_use_due(token, now + timedelta(hours=1))
 

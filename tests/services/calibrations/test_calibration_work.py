@@ -32,7 +32,7 @@ from app.services.camera_details import camera_detail
 from app.services.datasets import delete_dataset, get_dataset
 from app.services.images import delete_images
 from app.services.purging import purge
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 
 GRACE = timedelta(days=7)
 
@@ -163,7 +163,7 @@ def test_delete_restore_and_purge(bench, tmp_path: Path) -> None:
     assert latest() == new
     with bench.database.write() as session:
         delete_calibration(session, new, bench.now, grace=GRACE)
-    blobs = BlobStore(tmp_path / "blobs")
+    blobs = LocalBlobs(tmp_path / "blobs")
     assert purge(bench.database, blobs, bench.now, grace=GRACE).calibrations == 0
     assert purge(bench.database, blobs, bench.now + GRACE, grace=GRACE).calibrations == 1
     with bench.database.write() as session, pytest.raises(NotFound, match="no calibration"):
@@ -176,7 +176,7 @@ def test_a_camera_s_last_image_may_go(bench, tmp_path: Path) -> None:
     with bench.database.write() as session:
         dataset = get_dataset(session, "bench")
         delete_images(session, dataset, [image], bench.now, grace=GRACE)
-    blobs = BlobStore(tmp_path / "blobs")
+    blobs = LocalBlobs(tmp_path / "blobs")
     purge(bench.database, blobs, bench.now + 2 * GRACE, grace=GRACE)
     with bench.database.read() as session:
         detail = camera_detail(session, session.get_one(Camera, bench.camera_id), grace=GRACE)

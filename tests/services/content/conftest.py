@@ -21,7 +21,7 @@ from app.services.datasets import create_dataset
 from app.services.image_adding import add_image, receive_image
 from app.services.imports import Importer
 from app.services.labels import ImageLabels, import_labels, segment_rows
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 from app.vision.segments import Segments
 
 
@@ -41,7 +41,7 @@ def make_segments(count: int) -> Segments:
 @dataclass(frozen=True)
 class Place:
     database: Database
-    blobs: BlobStore
+    blobs: LocalBlobs
     now: datetime
 
     def dataset(self, name: str = "Street") -> str:
@@ -122,17 +122,17 @@ def segments() -> Callable[[int], Segments]:
 
 
 @pytest.fixture
-def blobs(tmp_path: Path) -> BlobStore:
-    return BlobStore(tmp_path / "blobs")
+def blobs(tmp_path: Path) -> LocalBlobs:
+    return LocalBlobs(tmp_path / "blobs")
 
 
 @pytest.fixture
-def place(database: Database, blobs: BlobStore, now: datetime) -> Place:
+def place(database: Database, blobs: LocalBlobs, now: datetime) -> Place:
     """A place on each kind of database."""
     return Place(database, blobs, now)
 
 
 @pytest.fixture
-def sqlite_place(sqlite_database: Database, blobs: BlobStore, now: datetime) -> Place:
+def sqlite_place(sqlite_database: Database, blobs: LocalBlobs, now: datetime) -> Place:
     """A place on SQLite alone, for tests to which the kind of database doesn't matter."""
     return Place(sqlite_database, blobs, now)

@@ -34,10 +34,10 @@ from app.services.submission_receiving import used_today
 from app.services.submission_states import SubmissionClaim, add_score, fail_or_retry, open_score
 from app.services.submission_views import submission_view
 from app.services.submissions import restore, withdraw
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 from app.vision.segments import Segments
 
-OWNER = Viewer("owner", "owner")
+OWNER = Viewer("owner", "admin")
 READER = Viewer(None, "reader", anonymous=True)
 LINES = [[[10, 20], [150, 25]], [[20, 60], [150, 90]], [[30, 100], [140, 40]]]
 IMAGES = 6
@@ -267,7 +267,7 @@ def test_totals_come_when_every_image_is_done(yard: Yard) -> None:
 
 
 def test_a_blob_goes_with_its_last_name(yard: Yard, tmp_path: Path) -> None:
-    blobs = BlobStore(tmp_path)
+    blobs = LocalBlobs(tmp_path)
     kept, free = blobs.put(b"kept"), blobs.put(b"free")
     with yard.database.write() as session:
         for sha256 in (kept, free):
@@ -317,7 +317,7 @@ def test_what_was_scored_while_it_was_withdrawn_is_charged_and_comes_back_as_sco
 def test_invalid_ones_that_nobody_waited_for_go_after_the_grace_period(yard: Yard, tmp_path: Path) -> None:
     yard.add("a", [3] * IMAGES)
     invalid = yard.add("b", [3] * IMAGES, status="invalid", minutes=1)
-    grace, blobs = timedelta(days=7), BlobStore(tmp_path)
+    grace, blobs = timedelta(days=7), LocalBlobs(tmp_path)
 
     def left(later: timedelta) -> int:
         purge(yard.database, blobs, yard.now + later, grace=grace)

@@ -12,15 +12,15 @@ from app.errors import Conflict
 from app.formats.npz import read_npz_set
 from app.services.ceilings import add_ceiling
 from app.services.splits import SplitPlan, create_split
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 
 
 @pytest.fixture
-def blobs(tmp_path: Path) -> BlobStore:
-    return BlobStore(tmp_path / "blobs")
+def blobs(tmp_path: Path) -> LocalBlobs:
+    return LocalBlobs(tmp_path / "blobs")
 
 
-def freeze(office, blobs: BlobStore) -> None:
+def freeze(office, blobs: LocalBlobs) -> None:
     with office.database.write() as session:
         create_split(session, blobs, "street", SplitPlan("Test"), office.now)
 

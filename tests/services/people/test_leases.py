@@ -53,6 +53,12 @@ def test_a_lease_that_is_renewed_goes_on(small_office) -> None:
     assert holder(small_office, JON, "Jon", 100) == "Mara"
 
 
+def test_a_lease_of_a_clock_that_was_put_back_is_over(small_office) -> None:
+    office = small_office
+    assert holder(office, MARA, "Mara", 86_400) == "Mara"  # then her browser crashes, and the clock is put right
+    assert holder(office, JON, "Jon") == "Jon"
+
+
 def test_taking_over_is_told_in_the_audit_once(office) -> None:
     renew(office, MARA, "Mara")
     for seconds in (10, 20):

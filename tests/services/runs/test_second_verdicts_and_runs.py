@@ -13,7 +13,7 @@ from app.services.runs import delete_run
 from app.services.second_reviews import own_second_review, set_second_review, start_second_review
 from app.services.second_verdicts import decide_second, second_history, second_segments
 from app.services.verdict_pairs import verdict_pairs
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 
 
 def test_a_purged_run_takes_no_second_verdict_along(bench, tmp_path) -> None:
@@ -27,7 +27,7 @@ def test_a_purged_run_takes_no_second_verdict_along(bench, tmp_path) -> None:
         review, _ = own_second_review(session, number, "Jon", lock=True)
         decide_second(session, review, [Wish(str(uuid4()), str(uuid4()), left, "reject")], "Jon", bench.now)
         delete_run(session, run, bench.now, grace=timedelta())
-    assert purge(bench.database, BlobStore(tmp_path), bench.now, grace=timedelta()).runs == 1
+    assert purge(bench.database, LocalBlobs(tmp_path), bench.now, grace=timedelta()).runs == 1
     with bench.database.read() as session:
         review, _ = own_second_review(session, number, "Jon")
         assert [(row.segment_id, row.verdict) for row in second_history(session, review)] == [(left, "reject")]
