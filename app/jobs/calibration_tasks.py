@@ -15,7 +15,7 @@ from app.calibration.lens import Family
 from app.calibration.line_table import CalibrationLines, packed_lines
 from app.calibration.work_order import CalibrationFound, CalibrationInputs, StoredLines
 from app.jobs.limits import TaskLimits, bounded
-from app.jobs.notes import TaskNotes, watch_through
+from app.jobs.notes import WorkerNotes, watch_through
 from app.jobs.tasks import errors_that_travel
 
 SEED = 0
@@ -29,7 +29,7 @@ def calibrate_task(
     camera_name: str,
     *,
     family: Family | None,
-    notes: TaskNotes,
+    notes: WorkerNotes,
 ) -> CalibrationFound:
     """Estimate a camera's lens.
 

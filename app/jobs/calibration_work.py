@@ -12,7 +12,7 @@ from app.calibration.work_order import CalibrationFound
 from app.db.session import Database
 from app.errors import Conflict
 from app.jobs.flight import Flight
-from app.jobs.notes import TaskNotes
+from app.jobs.notes import Notes
 from app.jobs.stores import Stores
 from app.jobs.work import Tasks, Work
 from app.services.calibration_inputs import calibration_inputs
@@ -59,7 +59,7 @@ class CalibrationWork:
             (self.claim.width, self.claim.height),
             self.claim.camera_name,
             family=self.claim.family,
-            notes=notes,
+            notes=notes.for_worker(),
         )
 
     def store(self, stores: Stores, result: CalibrationFound, now: datetime) -> None:
@@ -87,7 +87,7 @@ class CalibrationWork:
             put_calibration_back(session, self.claim)
         self.notes(stores).discard()
 
-    def notes(self, stores: Stores) -> TaskNotes:
+    def notes(self, stores: Stores) -> Notes:
         """Return the notes of this attempt."""
         return self._notes_of(stores, self.attempts)
 
@@ -96,8 +96,8 @@ class CalibrationWork:
         for attempt in range(1, self.attempts + 1):
             self._notes_of(stores, attempt).discard()
 
-    def _notes_of(self, stores: Stores, attempt: int) -> TaskNotes:
-        return TaskNotes(stores.notes / f"calibration-{self.claim.calibration_id}-{attempt}")
+    def _notes_of(self, stores: Stores, attempt: int) -> Notes:
+        return stores.notes.of(f"calibration-{self.claim.calibration_id}-{attempt}")
 
 
 def take_calibration(flight: Flight, database: Database, now: datetime) -> None:

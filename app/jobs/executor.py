@@ -13,7 +13,9 @@ import signal
 import threading
 from concurrent.futures import Executor, ProcessPoolExecutor
 from multiprocessing.connection import Connection
+from pathlib import Path
 
+MEBIBYTE = 2**20
 BACKGROUND = 10
 """Niceness of work in the background: on a busy machine it gets about a tenth of a processor, else all of it."""
 
@@ -38,6 +40,20 @@ class WorkerPool(ProcessPoolExecutor):
         self._lifeline.close()
         self._workers_end.close()
         self.shutdown(wait=False, cancel_futures=True)
+
+    def megabytes(self) -> dict[int, float | None]:
+        """Return the memory that each worker holds, by process id; ``None`` where the system doesn't tell."""
+        processes = self._processes
+        return {process_id: megabytes_of(process_id) for process_id in list(processes or ())}
+
+
+def megabytes_of(process_id: int) -> float | None:
+    """Return the memory that a process holds; ``None`` where the system doesn't tell, as all but Linux."""
+    try:
+        pages = int(Path(f"/proc/{process_id}/statm").read_text().split()[1])
+    except (OSError, ValueError, IndexError):
+        return None
+    return pages * os.sysconf("SC_PAGE_SIZE") / MEBIBYTE
 
 
 def make_executor(workers: int) -> Executor:

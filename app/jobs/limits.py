@@ -6,11 +6,12 @@ alarm raises in Python code; code that doesn't come back to Python is ended with
 
 from __future__ import annotations
 
+import ctypes
 import os
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,7 +49,7 @@ class TookTooLong(TooLarge):
 
 @contextmanager
 def bounded(limits: TaskLimits, what: str) -> Iterator[None]:
-    """Bound the block; to be used in the main thread of a worker.
+    """Bound the block; to be used by a worker that does nothing else, in its main thread or another one.
 
     Args:
         limits: How much it may take.
@@ -68,9 +69,17 @@ def _bounded_time(seconds: float, grace: float, what: str) -> Iterator[None]:
         yield
         return
 
+    def too_long() -> TookTooLong:
+        return TookTooLong(f"{what} took longer than {seconds:g} s", hint="are there far more segments than lines?")
+
+    if threading.current_thread() is not threading.main_thread():  # a cluster's worker keeps that one for itself
+        with _bounded_time_of_thread(seconds, grace, too_long):
+            yield
+        return
+
     def ring(number: int, frame: FrameType | None) -> NoReturn:
         del number, frame
-        raise TookTooLong(f"{what} took longer than {seconds:g} s", hint="are there far more segments than lines?")
+        raise too_long()
 
     before = signal.signal(signal.SIGALRM, ring)
     last_resort = threading.Timer(seconds + grace, os.kill, (os.getpid(), signal.SIGKILL))
@@ -83,6 +92,37 @@ def _bounded_time(seconds: float, grace: float, what: str) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
         last_resort.cancel()
+
+
+class _Alarm(BaseException):
+    """Raised in a thread whose time is over; not an ``Exception``, so that no task takes it for one of its own."""
+
+
+@contextmanager
+def _bounded_time_of_thread(seconds: float, grace: float, error: Callable[[], TookTooLong]) -> Iterator[None]:
+    """Bound the time of a thread other than the main one, which alone can have alarms."""
+    thread, lock, over = ctypes.c_ulong(threading.get_ident()), threading.Lock(), threading.Event()
+
+    def ring() -> None:
+        with lock:
+            if not over.is_set():
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(_Alarm))
+
+    last_resort = (os.getpid(), signal.SIGKILL)
+    timers = [threading.Timer(seconds, ring), threading.Timer(seconds + grace, os.kill, last_resort)]
+    for timer in timers:
+        timer.daemon = True
+        timer.start()
+    try:
+        yield
+    except _Alarm:
+        raise error() from None
+    finally:
+        with lock:
+            over.set()
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, None)  # one that rang but wasn't heard yet
+        for timer in timers:
+            timer.cancel()
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """Notes between a dispatcher and the worker of a long task: how far it is, and that nobody wants it any more.
 
-They are files in a folder of the server's, since a worker has no database. A note that is lost costs nothing but a
-progress bar; where workers run on another machine there are none.
+Where workers run on the server's machine they are files in a folder, since a worker has no database; those of a
+cluster are in ``app.jobs.cluster.notes``. A note that is lost costs nothing but a progress bar.
 """
 
 from __future__ import annotations
@@ -12,12 +12,75 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from app.errors import Cancelled
 
 PAUSE = 0.2
 """Seconds between two notes of a worker."""
+
+
+class WorkerNotes(Protocol):
+    """What the worker of a task sees of its notes."""
+
+    def note(self, stage: str, done: int, total: int) -> None:
+        """Note how far the task is."""
+        ...
+
+    def is_called_off(self) -> bool:
+        """Whether the worker is to stop."""
+        ...
+
+
+class Notes(Protocol):
+    """What the dispatcher sees of the notes of one attempt at one task."""
+
+    def for_worker(self) -> WorkerNotes:
+        """Return what is sent along with the task."""
+        ...
+
+    def prepare(self) -> None:
+        """Remove what an attempt of that name left."""
+        ...
+
+    def progress(self) -> dict[str, Any] | None:
+        """Return what the worker noted last: ``stage``, ``done`` and ``total``; ``None`` where it hasn't yet."""
+        ...
+
+    def call_off(self) -> None:
+        """Tell the worker to stop; may be said again and again."""
+        ...
+
+    def discard(self) -> None:
+        """Remove them."""
+        ...
+
+
+class NoteBoard(Protocol):
+    """Where notes are."""
+
+    def of(self, name: str) -> Notes:
+        """Return the notes of one attempt at one task.
+
+        Args:
+            name: Of the attempt: a file name without ending.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class NoteFolder:
+    """Notes as files.
+
+    Attributes:
+        path: Of the folder; made when needed.
+    """
+
+    path: Path
+
+    def of(self, name: str) -> TaskNotes:
+        """See ``NoteBoard``."""
+        return TaskNotes(self.path / name)
 
 
 @dataclass(frozen=True)
@@ -29,6 +92,10 @@ class TaskNotes:
     """
 
     path: Path
+
+    def for_worker(self) -> TaskNotes:
+        """See ``Notes``: it finds the same files."""
+        return self
 
     def progress(self) -> dict[str, Any] | None:
         """Return what the worker noted last: ``stage``, ``done`` and ``total``; ``None`` where it hasn't yet."""
@@ -72,7 +139,7 @@ class TaskNotes:
 
 
 def watch_through(
-    notes: TaskNotes, *, clock: Callable[[], float] = time.monotonic, pause: float = PAUSE
+    notes: WorkerNotes, *, clock: Callable[[], float] = time.monotonic, pause: float = PAUSE
 ) -> Callable[[str, int, int], None]:
     """Return what a task is to call now and then with stage, done and total.
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from app.db.session import Database
 from app.formats.submission_limits import SUBMISSION_LIMITS, SubmissionLimits
 from app.jobs.limits import TASK_LIMITS, TaskLimits
+from app.jobs.notes import NoteBoard
 from app.services.segment_sets import SegmentSets
 from app.storage import BlobStore
 
@@ -20,22 +20,21 @@ class Stores:
         database: The rows.
         blobs: The files.
         max_pixels: Greatest number of pixels that is decoded.
+        notes: Between the dispatcher and the workers of long tasks.
         max_attempts: Tries of a submission.
         submission_limits: How much a submission may hold.
         task_limits: What one task for a submission may take.
-        notes: Folder of the notes between dispatcher and workers.
         sets: Segments of submissions and truths, read once for all their images.
     """
 
     database: Database
     blobs: BlobStore
     max_pixels: int
+    notes: NoteBoard
     max_attempts: int = 3
     submission_limits: SubmissionLimits = SUBMISSION_LIMITS
     task_limits: TaskLimits = TASK_LIMITS
-    notes: Path = field(init=False)
     sets: SegmentSets = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "notes", self.blobs.root.parent / "notes")
         object.__setattr__(self, "sets", SegmentSets(self.blobs))

@@ -14,6 +14,7 @@ from app.services.calibration_queue import release_lost_calibrations
 from app.services.lens_estimates import finish_settled_runs
 from app.services.run_queue import beat, release_lost, unsettled_runs
 from app.services.scoring_attempts import beat_submissions, release_lost_submissions
+from app.services.tallies import IMAGES, RUNS, merge_tallies, owners_to_merge
 
 logger = logging.getLogger(__name__)
 
@@ -29,7 +30,7 @@ def take_up_lost(stores: Stores, now: datetime) -> None:
 
 
 def keep_alive(work: Sequence[Work], stores: Stores, now: datetime, *, silence: timedelta) -> None:
-    """Say that work is alive, and queue again what nobody has said that of.
+    """Say that work is alive, queue again what nobody has said that of, and add up what was counted meanwhile.
 
     Args:
         work: All work in hand.
@@ -45,6 +46,9 @@ def keep_alive(work: Sequence[Work], stores: Stores, now: datetime, *, silence: 
         release_lost(session, stores.max_attempts, silent_since=now - silence)
         release_lost_submissions(session, stores.max_attempts, now, silent_since=now - silence)
         release_lost_calibrations(session, stores.max_attempts, now, silent_since=now - silence)
+        for tallied in (IMAGES, RUNS):
+            for owner in owners_to_merge(session, tallied):
+                merge_tallies(session, tallied, owner)
 
 
 def finish_runs(database: Database, now: datetime) -> None:

@@ -11,7 +11,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.db.session import Database
 from app.errors import ClearLinesError
-from app.services.webhook_deliveries import Delivery, deliveries_due, record_delivery
+from app.services.webhook_deliveries import FAILED, Delivery, deliveries_due, record_delivery
 from app.services.webhook_sending import send_webhook
 from app.settings import Settings
 
@@ -31,15 +31,23 @@ class Webhooks:
         database: Where the rows are.
         settings: ``webhook_seconds``, ``webhook_private_addresses``.
         clock: Gives the time, UTC.
+        is_ours: Whether it is this process that sends them: of several servers one does.
         pause: Seconds before the second try.
     """
 
     def __init__(
-        self, database: Database, settings: Settings, clock: Callable[[], datetime], *, pause: float = PAUSE
+        self,
+        database: Database,
+        settings: Settings,
+        clock: Callable[[], datetime],
+        *,
+        is_ours: Callable[[], bool] = lambda: True,
+        pause: float = PAUSE,
     ) -> None:
         self._database = database
         self._settings = settings
         self._clock = clock
+        self._is_ours = is_ours
         self._pause = pause
         self._signal = threading.Event()
         self._stopping = threading.Event()
@@ -81,7 +89,8 @@ class Webhooks:
         while not self._stopping.is_set():
             self._signal.clear()
             try:
-                self.send_due()
+                if self._is_ours():
+                    self.send_due()
             except (SQLAlchemyError, ClearLinesError):
                 logger.warning("webhooks wait for the database", exc_info=True)
             self._signal.wait(IDLE)
@@ -100,11 +109,11 @@ class Webhooks:
                     allow_private=self._settings.webhook_private_addresses,
                 )
             except ClearLinesError as error:
-                outcome = f"webhook failed: {error.message}"
+                outcome = f"{FAILED}{error.message}"
                 if error.status < 500:  # a second try would be refused as the first was
                     return outcome
                 continue
             if 200 <= status < 300:
                 return f"webhook sent, answered with {status}"
-            outcome = f"webhook failed: answered with {status}"
+            outcome = f"{FAILED}answered with {status}"
         return outcome

@@ -21,7 +21,7 @@ from app.jobs.work import Tasks
 from app.services.run_progress import RunSummary, run_summary
 from app.services.runs import start_run
 from app.settings import Settings
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 
 WIDTH, HEIGHT = 160, 120
 DEADLINE = 90.0  # s
@@ -63,7 +63,7 @@ class Yard:
     """Where dispatchers work."""
 
     database: Database
-    blobs: BlobStore
+    blobs: LocalBlobs
     settings: Settings
     gate: Path
     dataset_id: int
@@ -168,7 +168,7 @@ def make_yard(database: Database, folder: Path, monkeypatch: pytest.MonkeyPatch)
         session.add(Camera(dataset_id=dataset.id, name="front", width=WIDTH, height=HEIGHT, created_at=now))
         dataset_id = dataset.id
     settings = Settings(data_dir=folder, workers=2, heartbeat_seconds=0.5, stale_seconds=60, max_attempts=3)
-    return Yard(database, BlobStore(folder / "blobs"), settings, gate, dataset_id)
+    return Yard(database, LocalBlobs(folder / "blobs"), settings, gate, dataset_id)
 
 
 @pytest.fixture

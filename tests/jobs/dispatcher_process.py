@@ -1,4 +1,4 @@
-"""A process that works off a database until it is killed, as a server does: DATABASE_URL BLOB_DIR."""
+"""A process that works off a database until it is killed, as a server does: DATABASE_URL DATA_DIR."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ def main() -> None:
     from app.jobs.dispatcher import Dispatcher
     from app.jobs.work import Tasks
     from app.settings import Settings
-    from app.storage import BlobStore
+    from app.storage import open_blobs
 
     address, folder = sys.argv[1:]
     settings = Settings(data_dir=Path(folder), workers=1, heartbeat_seconds=0.5, max_attempts=3)
     dispatcher = Dispatcher(
         open_database(address),
-        BlobStore(Path(folder)),
+        open_blobs(settings),
         settings,
         lambda: datetime.now(UTC),
         tasks=Tasks(detect=gated_detect),

@@ -30,6 +30,16 @@ def deadly_detect(content: bytes, name: str, parameters: dict[str, Any], **optio
     return detect_task(content, name, parameters, **options)
 
 
+LEFT_BEHIND: list[bytes] = []
+
+
+def told_detect(content: bytes, name: str, parameters: dict[str, Any], **options: Any) -> DetectionResult:
+    """Say which process works on the image, and leave 300 MB behind."""
+    (Path(os.environ["TEST_GATE"]) / f"{name}.pid").write_text(str(os.getpid()))
+    LEFT_BEHIND.append(b"x" * 300 * 2**20)
+    return detect_task(content, name, parameters, **options)
+
+
 def deadly_history(content: bytes, name: str, parameters: dict[str, Any], **options: Any) -> ImageHistory:
     """Dies of images named ``deadly...`` as ``deadly_detect`` does."""
     if name.startswith("deadly"):

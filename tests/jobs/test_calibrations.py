@@ -68,7 +68,7 @@ def is_over(yard: Any, calibration: int) -> bool:
 
 
 def notes_left(yard: Any) -> list[str]:
-    folder = yard.blobs.root.parent / "notes"
+    folder = yard.settings.data_dir / "notes"
     return [path.name for path in folder.iterdir()] if folder.exists() else []
 
 
@@ -142,7 +142,7 @@ def test_a_killed_server_finishes_it_once_after_its_restart(small_yard, eventual
 
 def run_server(yard: Any, address: str) -> subprocess.Popen[bytes]:
     environment = {**os.environ, "PYTHONPATH": f"{PROJECT}{os.pathsep}{HERE}"}
-    command = [sys.executable, str(HERE / "calibrating_process.py"), address, str(yard.blobs.root)]
+    command = [sys.executable, str(HERE / "calibrating_process.py"), address, str(yard.settings.data_dir)]
     return subprocess.Popen(command, env=environment)
 
 

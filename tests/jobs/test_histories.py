@@ -24,7 +24,7 @@ from app.jobs.executor import WorkerPool, make_executor
 from app.jobs.histories import MOST_IMAGES, Histories
 from app.jobs.tasks import ImageHistory, history_task
 from app.services.segment_history import Found, detection_behind
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 
 MAX_PIXELS = 1_000_000
 
@@ -43,7 +43,7 @@ class Counting:
         return history_task(content, name, parameters, **options)
 
 
-class SlowBlobs(BlobStore):
+class SlowBlobs(LocalBlobs):
     """Blobs whose reading may be held up."""
 
     def __init__(self, root: Path) -> None:

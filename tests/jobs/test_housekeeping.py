@@ -12,7 +12,7 @@ from app.db.models import Dataset
 from app.db.session import Database
 from app.jobs.housekeeping import Housekeeper
 from app.services.datasets import create_dataset, delete_dataset
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 
 GRACE = timedelta(days=7)
 
@@ -27,7 +27,7 @@ def test_the_grace_period_is_kept_and_then_over(sqlite_database: Database, tmp_p
         for name, age in (("old", 8), ("recent", 6)):
             dataset = create_dataset(session, name, now - timedelta(days=10))
             delete_dataset(session, dataset.slug, now - timedelta(days=age), grace=GRACE)
-    keeper = Housekeeper(sqlite_database, BlobStore(tmp_path / "blobs"), grace=GRACE, clock=lambda: now)
+    keeper = Housekeeper(sqlite_database, LocalBlobs(tmp_path / "blobs"), grace=GRACE, clock=lambda: now)
     keeper.start()
     deadline = time.monotonic() + 20
     while count_datasets(sqlite_database) > 1 and time.monotonic() < deadline:
@@ -37,6 +37,6 @@ def test_the_grace_period_is_kept_and_then_over(sqlite_database: Database, tmp_p
 
 
 def test_it_can_be_stopped_before_it_began(sqlite_database: Database, tmp_path: Path, now: datetime) -> None:
-    keeper = Housekeeper(sqlite_database, BlobStore(tmp_path / "blobs"), grace=GRACE, clock=lambda: now)
+    keeper = Housekeeper(sqlite_database, LocalBlobs(tmp_path / "blobs"), grace=GRACE, clock=lambda: now)
     keeper.stop()
     assert count_datasets(sqlite_database) == 0

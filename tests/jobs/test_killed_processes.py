@@ -85,7 +85,7 @@ def test_an_image_that_kills_its_worker_fails_alone(small_yard) -> None:
 
 def run_server(yard, address: str) -> subprocess.Popen[bytes]:
     environment = {**os.environ, "PYTHONPATH": f"{PROJECT}{os.pathsep}{HERE}"}
-    command = [sys.executable, str(HERE / "dispatcher_process.py"), address, str(yard.blobs.root)]
+    command = [sys.executable, str(HERE / "dispatcher_process.py"), address, str(yard.settings.data_dir)]
     return subprocess.Popen(command, env=environment)
 
 

@@ -9,7 +9,7 @@ import sys
 import time
 import zipfile
 from collections.abc import Iterator
-from concurrent.futures import BrokenExecutor, Executor, Future
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,7 @@ from app.formats.submission_files import ExpectedImage
 from app.formats.submission_limits import SubmissionLimits
 from app.formats.submission_problems import InvalidSubmission
 from app.jobs.executor import end_executor, make_executor
-from app.jobs.limits import TaskLimits, TookTooLong
+from app.jobs.limits import TaskLimits, TookTooLong, bounded
 from app.jobs.scoring_tasks import Validated
 from app.jobs.validations import Validations
 
@@ -49,6 +49,21 @@ def test_memory_and_time_are_bounded_and_the_worker_goes_on(worker: Executor) ->
     with pytest.raises(TookTooLong, match=r"counting took longer than 0\.2 s"):
         worker.submit(task("take_time"), 60.0, 0.2).result()
     assert worker.submit(task("take_time"), 0.3, 60.0).result() == "in time"
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there are no alarms here")
+def test_time_is_bounded_in_a_thread_that_can_have_no_alarm() -> None:
+    def count(seconds: float, bound: float) -> str:
+        with bounded(TaskLimits(bound, 4096), "counting"):
+            end = time.monotonic() + seconds
+            while time.monotonic() < end:
+                pass
+        return "in time"
+
+    with ThreadPoolExecutor(1) as threads:
+        with pytest.raises(TookTooLong, match=r"counting took longer than 0\.2 s"):
+            threads.submit(count, 60.0, 0.2).result(60)
+        assert threads.submit(count, 0.1, 60.0).result(60) == "in time"
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there are no alarms here")

@@ -189,7 +189,7 @@ def test_what_takes_too_long_fails_and_says_why(small_yard, make_board) -> None:
 def run_server(yard: Any, address: str) -> subprocess.Popen[bytes]:
     environment = {**os.environ, "PYTHONPATH": f"{PROJECT}{os.pathsep}{HERE}"}
     return subprocess.Popen(
-        [sys.executable, str(HERE / "scoring_process.py"), address, str(yard.blobs.root)], env=environment
+        [sys.executable, str(HERE / "scoring_process.py"), address, str(yard.settings.data_dir)], env=environment
     )
 
 

@@ -14,7 +14,7 @@ import pytest
 from app.errors import InvalidImage, NoEdge, Unavailable
 from app.jobs import tracing
 from app.jobs.tracing import Tracer, Wanted, trace_task
-from app.storage import BlobStore
+from app.storage import LocalBlobs
 from app.vision.distortion import estimate_distortion
 from app.vision.segments import Segments
 
@@ -33,11 +33,11 @@ def wanted(sha256: str = "", how: str = "edge", **fields: Any) -> Wanted:
 
 
 @pytest.fixture
-def blobs(tmp_path: Path) -> BlobStore:
-    return BlobStore(tmp_path / "blobs")
+def blobs(tmp_path: Path) -> LocalBlobs:
+    return LocalBlobs(tmp_path / "blobs")
 
 
-def test_an_image_is_read_once_for_many_traces(blobs: BlobStore, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_image_is_read_once_for_many_traces(blobs: LocalBlobs, monkeypatch: pytest.MonkeyPatch) -> None:
     read: list[int] = []
 
     def decode(content: bytes, **options: Any) -> Any:
@@ -79,7 +79,7 @@ def test_errors_name_the_image_or_the_place() -> None:
     assert "(20, 20)" in str(nothing.value)
 
 
-def test_a_worker_that_dies_is_told_of(blobs: BlobStore) -> None:
+def test_a_worker_that_dies_is_told_of(blobs: LocalBlobs) -> None:
     class Dying(ThreadPoolExecutor):
         def submit(self, *_: Any, **__: Any) -> Future[Any]:
             future: Future[Any] = Future()
@@ -94,7 +94,7 @@ def test_a_worker_that_dies_is_told_of(blobs: BlobStore) -> None:
 
 
 def test_who_comes_when_many_wait_is_sent_away_and_what_nobody_waits_for_is_not_begun(
-    blobs: BlobStore, monkeypatch: pytest.MonkeyPatch
+    blobs: LocalBlobs, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     futures: list[Future[Any]] = []
 
