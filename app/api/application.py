@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -9,19 +10,19 @@ from pathlib import Path
 from fastapi import APIRouter, FastAPI, Request
 from fastapi.responses import RedirectResponse
 from starlette.exceptions import HTTPException
-from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 from starlette.routing import BaseRoute, Match
 
 from app import __version__
-from app.api.built_files import BuiltFiles
 from app.api.deps import Server
-from app.api.gate import Gate
-from app.api.guard import Guard
-from app.api.head import HeadAsGet
-from app.api.opening import Opening
+from app.api.layers import add_layers
+from app.api.metrics import Metrics
+from app.api.openid_setup import configured_sign_in
 from app.api.problems import answers, install_problem_handlers
+from app.api.readiness import Readiness
 from app.api.routers import (
+    account,
     agreement,
+    audit,
     board,
     calibration_files,
     calibrations,
@@ -32,19 +33,25 @@ from app.api.routers import (
     edits,
     exports,
     images,
+    invitations,
     labelling,
     methods,
+    openid,
     people,
     runs,
     second_reviews,
     segments,
     session,
     splits,
+    status,
     submissions,
     suggestions,
     system,
     uploads,
+    users,
 )
+from app.api.scraping import StateCollector
+from app.api.throttle import Throttle
 from app.clock import utc_now
 from app.db.session import open_database, upgrade
 from app.jobs.calibration_desk import CalibrationDesk
@@ -54,15 +61,23 @@ from app.jobs.histories import Histories
 from app.jobs.housekeeping import Housekeeper
 from app.jobs.scoring_desk import scoring_desk
 from app.jobs.tracing import Tracer
-from app.services.card_tables import CardTables
+from app.services.card_tables import SHOWN_IMAGES, CardTables
 from app.services.work_logs import WorkLogs
 from app.settings import Settings
-from app.storage import BlobStore
+from app.storage import open_blobs
 
 METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
+FROM_ANY_ROUTE = (400, 401, 403, 408, 413, 422, 429, 503, 507)
+"""Statuses that come from before a route: its body, who asks, how often; and from a database or a disk that can't."""
 ROUTERS = (
     system,
+    status,
     session,
+    openid,
+    account,
+    users,
+    invitations,
+    audit,
     datasets,
     cards,
     uploads,
@@ -94,20 +109,27 @@ Coordinates: x right, y down, in px, pixel centre at integers. Errors are proble
 
 
 def create_application(settings: Settings) -> FastAPI:
-    """Return the application; the database is opened, and the work taken up, when it starts."""
+    """Return the application; the database is opened, and the work taken up, when it starts.
+
+    Its ``state.stopping`` is set when it is to end: answers that would go on for long end then.
+    """
+    metrics = Metrics()
+    stopping = threading.Event()
 
     @asynccontextmanager
     async def lifespan(application: FastAPI) -> AsyncIterator[None]:
+        stopping.clear()
         database = open_database(settings.database_address)
-        upgrade(database)
-        blobs = BlobStore(settings.blob_dir)
-        dispatcher = Dispatcher(database, blobs, settings, utc_now)
+        upgrade(database, backups=settings.backups, now=utc_now())
+        blobs = open_blobs(settings)
+        dispatcher = Dispatcher(database, blobs, settings, utc_now, on_work=metrics.work_ended)
         histories = Histories(blobs, settings.max_image_pixels)
         features = FeatureDesk(database, blobs, settings.max_image_pixels, utc_now)
-        tables = CardTables(database)
+        tables = CardTables(database, most=SHOWN_IMAGES)
         desk = scoring_desk(settings, blobs)
         tracer = Tracer(blobs, settings.max_image_pixels)
         calibration_desk = CalibrationDesk()
+        sign_in = configured_sign_in(settings)
         application.state.server = Server(
             settings,
             database,
@@ -121,13 +143,23 @@ def create_application(settings: Settings) -> FastAPI:
             desk,
             tracer,
             calibration_desk,
+            Throttle(settings, on_failure=metrics.sign_in_failed),
+            utc_now(),
+            Readiness(database, blobs),
+            metrics,
+            stopping,
+            sign_in,
         )
+        state = StateCollector(application.state.server)
+        metrics.registry.register(state)
         housekeeper = Housekeeper(database, blobs, grace=settings.grace, clock=utc_now)
         dispatcher.start()
         housekeeper.start()
         try:
             yield
         finally:
+            stopping.set()
+            metrics.registry.unregister(state)
             housekeeper.stop()
             dispatcher.stop()
             histories.stop()
@@ -135,6 +167,9 @@ def create_application(settings: Settings) -> FastAPI:
             desk.stop()
             tracer.stop()
             calibration_desk.stop()
+            if sign_in is not None:
+                sign_in.close()
+            blobs.close()
             database.close()
 
     application = FastAPI(
@@ -145,25 +180,17 @@ def create_application(settings: Settings) -> FastAPI:
         openapi_url="/api/openapi.json",
         docs_url=None,
         redoc_url=None,
-        responses=answers(401, 403, 422),
+        responses=answers(*FROM_ANY_ROUTE),
     )
+    application.state.stopping = stopping
     install_problem_handlers(application)
     for router in ROUTERS:
         application.include_router(router.router, prefix="/api")
     application.include_router(_unknown_addresses(list(application.routes)))
-    if (STATIC / "index.html").is_file():
+    has_pages = (STATIC / "index.html").is_file()
+    if has_pages:
         application.frontend("/", directory=str(STATIC))
-        application.add_middleware(Opening, static=STATIC)
-        application.add_middleware(BuiltFiles, static=STATIC)
-    application.add_middleware(Gate)
-    application.add_middleware(
-        GZipMiddleware,
-        minimum_size=2000,
-        compresslevel=5,
-        exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/octet-stream"),
-    )
-    application.add_middleware(HeadAsGet)
-    application.add_middleware(Guard, max_body_bytes=settings.max_upload_bytes)
+    add_layers(application, settings, metrics, STATIC if has_pages else None)
     return application
 
 

@@ -2,21 +2,26 @@
 
 On a loopback address the one owner may do everything, so the danger is a foreign page in the owner's browser: DNS
 rebinding (a foreign name that resolves to 127.0.0.1) is stopped by the Host check, cross-site posts by the Origin and
-Sec-Fetch-Site checks.
+Sec-Fetch-Site checks. Where others can reach the server the same checks keep a foreign page from using what a browser
+is signed in with.
 """
 
 from __future__ import annotations
 
+import asyncio
+
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from app.api.origins import OwnNames
 from app.api.problems import problem_of
-from app.errors import ClearLinesError, Forbidden, InvalidInput, TooLarge
+from app.errors import ClearLinesError, Forbidden, InvalidInput, TooLarge, TooSlow
 
-LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "[::1]"})
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
 MAX_DOCUMENT_BYTES = 16 * 2**20
 """Largest body that is no upload of files; the longest list of ids that a route takes needs a quarter of it."""
+SILENCE = 60.0
+"""How long a body may pause, in s, before nobody waits for the rest of it."""
 
 ANSWER_HEADERS = {
     "X-Content-Type-Options": "nosniff",
@@ -28,31 +33,52 @@ ANSWER_HEADERS = {
         "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
     ),
 }
+PROXIES_SAY = ("x-forwarded-for", "x-forwarded-host", "forwarded", "x-real-ip", "via")
+"""Headers that tell of a proxy."""
+TLS_HEADERS = {"Strict-Transport-Security": "max-age=31536000"}
+"""Where it is served with TLS: browsers ask this name with nothing else, for a year."""
 
 
-def host_name(host: str) -> str:
-    """Return the name of a Host header without its port; an IPv6 address keeps its brackets."""
-    if host.startswith("["):
-        return host.partition("]")[0].lower() + "]"
-    return host.partition(":")[0].lower()
-
-
-def check_host(headers: Headers) -> None:
-    """Refuse names that aren't this machine's loopback.
+def check_host(headers: Headers, own: OwnNames) -> None:
+    """Refuse names that aren't this server's.
 
     Raises:
         Forbidden: Where the Host header is missing or names another host.
     """
     host = headers.get("host", "")
-    if host_name(host) not in LOOPBACK_NAMES:
+    if own.has(host):
+        return
+    if own.numbers:
         raise Forbidden(
-            "this server answers on its loopback address only",
+            "this server isn't called that",
             where=f"Host: {host[:200]}",
-            expected="localhost, 127.0.0.1 or [::1]",
+            hint="clearlines serve --public-url https://NAME says how it is; CLEARLINES_ALLOWED_HOSTS takes more names",
+        )
+    raise Forbidden(
+        "this server answers on its loopback address only",
+        where=f"Host: {host[:200]}",
+        expected="localhost, 127.0.0.1 or [::1]",
+    )
+
+
+def check_direct(headers: Headers, own: OwnNames) -> None:
+    """Refuse what a proxy passes on in local mode: others ask through it, and whoever asks would be the owner.
+
+    Raises:
+        Forbidden: Where the request came through a proxy.
+    """
+    if own.has_accounts:
+        return
+    name = next((name for name in PROXIES_SAY if name in headers), None)
+    if name is not None:
+        raise Forbidden(
+            "a proxy passes this on, and there are no accounts",
+            where=name,
+            hint="clearlines serve --public-url https://NAME requires accounts",
         )
 
 
-def check_origin(method: str, headers: Headers) -> None:
+def check_origin(method: str, headers: Headers, own: OwnNames) -> None:
     """Refuse changes that another site's page asks for.
 
     Raises:
@@ -62,16 +88,13 @@ def check_origin(method: str, headers: Headers) -> None:
         return
     site = headers.get("sec-fetch-site")
     origin = headers.get("origin")
-    foreign = origin is not None and origin.lower() not in _own_origins(headers)
+    if origin is not None and own.may_ask(origin, headers):
+        return
+    foreign = origin is not None and not own.is_own(origin, headers.get("host", ""))
     if foreign or site in {"cross-site", "same-site"}:
         raise Forbidden(
             "a page of another site may not change anything here", where=f"Origin: {(origin or site or '')[:200]}"
         )
-
-
-def _own_origins(headers: Headers) -> set[str]:
-    host = headers.get("host", "").lower()
-    return {f"http://{host}", f"https://{host}"}
 
 
 def check_address(scope: Scope) -> None:
@@ -85,11 +108,22 @@ def check_address(scope: Scope) -> None:
 
 
 class Guard:
-    """ASGI middleware: the checks above, a bound on the body while it streams, and the headers of every answer."""
+    """ASGI middleware: the checks above, bounds on the body while it streams, and the headers of every answer.
 
-    def __init__(self, app: ASGIApp, *, max_body_bytes: int) -> None:
+    Args:
+        app: What answers.
+        own: What the server is called.
+        max_body_bytes: Longest body.
+        silence: How long a body may pause, in s.
+    """
+
+    def __init__(self, app: ASGIApp, *, own: OwnNames, max_body_bytes: int, silence: float = SILENCE) -> None:
         self.app = app
+        self.own = own
         self.max_body_bytes = max_body_bytes
+        self.silence = silence
+        has_tls = (own.public_origin or "").startswith("https:")
+        self.answer_headers = ANSWER_HEADERS | (TLS_HEADERS if has_tls else {})
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer, refuse, or pass on one request."""
@@ -101,20 +135,21 @@ class Guard:
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 answer = MutableHeaders(scope=message)
-                for name, value in ANSWER_HEADERS.items():
+                for name, value in self.answer_headers.items():
                     answer.setdefault(name, value)
             await send(message)
 
         try:
-            check_host(headers)
-            check_origin(scope["method"], headers)
+            check_host(headers, self.own)
+            check_direct(headers, self.own)
+            check_origin(scope["method"], headers, self.own)
             check_address(scope)
             limit = self._limit_of(headers)
             _check_length(headers, limit)
         except ClearLinesError as error:
             await problem_of(error)(scope, receive, send_with_headers)
             return
-        await self.app(scope, _bounded(receive, limit), send_with_headers)
+        await self.app(scope, _bounded(receive, limit, self.silence), send_with_headers)
 
     def _limit_of(self, headers: Headers) -> int:
         """Return the largest body to take: files are streamed to the disk, all else is held in memory."""
@@ -140,12 +175,24 @@ def _check_length(headers: Headers, limit: int) -> None:
         raise _too_large(limit)
 
 
-def _bounded(receive: Receive, limit: int) -> Receive:
+def _bounded(receive: Receive, limit: int, silence: float) -> Receive:
     received = 0
+    is_whole = False
 
     async def bounded() -> Message:
-        nonlocal received
-        message = await receive()
+        nonlocal received, is_whole
+        if is_whole:  # what is waited for now is the end of the connection
+            return await receive()
+        try:
+            async with asyncio.timeout(silence):
+                message = await receive()
+        except TimeoutError:
+            raise TooSlow(
+                "the rest of the request didn't come",
+                expected=f"no pause longer than {silence:g} s",
+                hint="try again, on a connection that holds",
+            ) from None
+        is_whole = not message.get("more_body", False)
         if message["type"] == "http.request":
             received += len(message.get("body", b""))
             if received > limit:

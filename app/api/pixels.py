@@ -5,10 +5,10 @@ from __future__ import annotations
 from enum import IntEnum
 
 from fastapi import Response
-from fastapi.responses import FileResponse
 
 from app.api.deps import Server
 from app.api.freshness import fresh_headers, is_held, not_modified
+from app.api.stored_files import stored_file_answer
 from app.errors import NotFound
 from app.images import for_browser, shown_as_stored, thumbnail
 from app.services.image_views import ViewedImage, render_view
@@ -28,18 +28,14 @@ def original_answer(server: Server, sha256: str, file_name: str, if_none_match: 
     """Return the file as it was uploaded.
 
     Raises:
-        NotFound: When it is gone from the data folder.
+        NotFound: When it is gone.
     """
     if is_held(if_none_match, sha256):
         return not_modified(sha256)
-    if not server.blobs.exists(sha256):  # else the answer would break off after it has begun
-        raise NotFound("the image's file is gone from the data folder", where=file_name)
-    return FileResponse(
-        server.blobs.path(sha256),
-        filename=file_name.rpartition("/")[2],
-        media_type="application/octet-stream",
-        headers=fresh_headers(sha256),
-    )
+    try:
+        return stored_file_answer(server.blobs, sha256, file_name.rpartition("/")[2], fresh_headers(sha256))
+    except NotFound as error:
+        raise NotFound("the image's file is gone", where=file_name) from error
 
 
 def display_answer(server: Server, sha256: str, if_none_match: str | None) -> Response:

@@ -1,4 +1,4 @@
-"""Which role each address of the API needs at least. An address that isn't listed here is the owner's alone.
+"""Which role each address of the API needs at least. An address that isn't listed here is an admin's alone.
 
 What hidden splits conceal goes by what an address names, not by its role: see `Rule.conceals` and `Rule.details`.
 """
@@ -19,9 +19,24 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /docs",
         "GET /health",
         "GET /configuration",
+        "GET /ready",
         "GET /me",
         "POST /session",
         "DELETE /session",
+        "GET /session/providers",
+        "GET /session/openid/start",
+        "POST /session/openid/start",
+        "GET /session/openid/callback",
+        "GET /account",
+        "PATCH /account",
+        "POST /account/password",
+        "GET /account/sessions",
+        "DELETE /account/sessions/{session_id}",
+        "GET /account/tokens",
+        "POST /account/tokens",
+        "DELETE /account/tokens/{token_id}",
+        "POST /invitations/look",
+        "POST /invitations/accept",
         "GET /datasets",
         "GET /datasets/{slug}",
         "GET /datasets/{slug}/images",
@@ -143,6 +158,19 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "POST /splits/{split}/rescore",
         "POST /submissions/{submission_id}/rescore",
     ),
+    "admin": (
+        "GET /users",
+        "PATCH /users/{user_id}",
+        "POST /users/{user_id}/reset",
+        "GET /users/tokens",
+        "DELETE /users/tokens/{token_id}",
+        "GET /invitations",
+        "POST /invitations",
+        "DELETE /invitations/{invitation_id}",
+        "GET /audit",
+        "GET /status",
+        "GET /metrics",
+    ),
 }
 
 PIXELS = frozenset({"original", "display", "thumbnail"})
@@ -161,6 +189,7 @@ class Rule:
         pattern: Matches the whole path after the prefix and names its parts.
         conceals: Whether what it names may be concealed; pixels aren't.
         details: Whether it tells of a submission what labels could be learnt from.
+        account: Whether it is about the account of whoever asks, so that there must be one.
     """
 
     method: str
@@ -169,6 +198,7 @@ class Rule:
     pattern: re.Pattern[str] = field(repr=False)
     conceals: bool
     details: bool
+    account: bool
 
 
 @dataclass(frozen=True)
@@ -223,6 +253,7 @@ def _rules() -> tuple[Rule, ...]:
                     _pattern(template),
                     conceals=words[-1] not in PIXELS,
                     details=words[1] == "submissions" and not DETAILS.isdisjoint(words),
+                    account=words[1] == "account",
                 )
             )
     # addresses whose words are all fixed come before those that take any word

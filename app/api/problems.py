@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import logging
+import errno
 from http import HTTPStatus
 from typing import Any, cast
 
@@ -13,12 +13,14 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 
-from app.errors import ClearLinesError, Unauthenticated
+from app.api.throttle import RETRY_AFTER
+from app.errors import ClearLinesError, NoRoom, Unauthenticated
 
 TOO_MANY_FILES = "Too many files"
 """How the framework begins its words on a form with more files than it takes."""
 MEDIA_TYPE = "application/problem+json"
-logger = logging.getLogger(__name__)
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
+MAKE_ROOM = "try again when whoever runs the server has made room"
 
 
 class Problem(BaseModel):
@@ -68,6 +70,8 @@ def problem_of(error: ClearLinesError) -> JSONResponse:
     response = problem_response(error.status, fields.pop("code"), fields.pop("message"), **fields)
     if isinstance(error, Unauthenticated):
         response.headers["WWW-Authenticate"] = "Bearer"
+    if RETRY_AFTER in error.details:
+        response.headers["Retry-After"] = str(error.details[RETRY_AFTER])
     return response
 
 
@@ -121,19 +125,31 @@ async def _http_error(request: Request, error: Exception) -> JSONResponse:
     return response
 
 
-async def _unexpected_error(request: Request, error: Exception) -> JSONResponse:
-    logger.error("%s %s failed", request.method, request.url.path, exc_info=error)
+async def _system_error(request: Request, error: Exception) -> JSONResponse:
+    del request
+    if getattr(error, "errno", None) not in FULL:
+        raise error
+    return problem_of(NoRoom("there is no room left on the server's disk; nothing was changed", hint=MAKE_ROOM))
+
+
+def mistake_of(request_id: str) -> JSONResponse:
+    """Return the problem document of an error that nobody foresaw.
+
+    Args:
+        request_id: What the server's log has the details under.
+    """
     return problem_response(
         500,
         "internal-error",
         "the server made a mistake; nothing was changed",
-        hint="the server's log has the details; please report it with them",
+        hint=f"the server's log has the details under request {request_id}; please report it with them",
+        details={"request_id": request_id},
     )
 
 
 def install_problem_handlers(application: FastAPI) -> None:
-    """Give every error of the application the one form."""
+    """Give every error that routes raise the one form; for those that nobody foresaw see `app.api.observing`."""
     application.add_exception_handler(ClearLinesError, _own_error)
     application.add_exception_handler(RequestValidationError, _validation_error)
     application.add_exception_handler(HTTPException, _http_error)
-    application.add_exception_handler(Exception, _unexpected_error)
+    application.add_exception_handler(OSError, _system_error)

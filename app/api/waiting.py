@@ -16,10 +16,14 @@ IN_VALIDATION = ("received", "validating")
 
 
 async def wait_for_validation(server: Server, submission_id: int) -> None:
-    """Return once a submission's upload was validated, or when its sender has waited long enough."""
+    """Return once a submission's upload was validated, its sender has waited long enough, or the server is to end."""
     deadline = time.monotonic() + server.settings.validation_seconds
-    while time.monotonic() < deadline and await run_in_threadpool(_is_in_validation, server, submission_id):
+    while _may_wait(server, deadline) and await run_in_threadpool(_is_in_validation, server, submission_id):
         await asyncio.sleep(PAUSE)
+
+
+def _may_wait(server: Server, deadline: float) -> bool:
+    return time.monotonic() < deadline and not server.stopping.is_set()
 
 
 def _is_in_validation(server: Server, submission_id: int) -> bool:

@@ -12,7 +12,7 @@ from fastapi.testclient import TestClient
 from sqlalchemy import select
 
 from app.api.application import create_application
-from app.api.gate import COOKIE
+from app.api.cookies import TOKEN_COOKIE as COOKIE
 from app.api.policy import LEAST, RULES, rule_of
 from app.clock import utc_now
 from app.db.models import Event, Review
@@ -85,7 +85,7 @@ def test_an_address_is_found_by_its_words_before_its_parts() -> None:
 
 def test_without_a_token_the_owner_asks_in_local_mode(client: TestClient) -> None:
     me = client.get("/api/me").json()
-    assert (me["name"], me["role"], me["anonymous"]) == ("owner", "owner", True)
+    assert (me["name"], me["role"], me["anonymous"]) == ("owner", "admin", True)
     assert all(me["can"].values())
 
 

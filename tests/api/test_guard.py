@@ -37,6 +37,13 @@ def test_a_change_asked_for_by_another_site_is_refused(client: TestClient, heade
     assert client.get("/api/datasets").json() == []
 
 
+@pytest.mark.parametrize("header", ["X-Forwarded-For", "X-Forwarded-Host", "Forwarded", "X-Real-IP", "Via"])
+def test_who_comes_through_a_proxy_is_not_taken_for_the_owner(client: TestClient, header: str) -> None:
+    answer = client.get("/api/datasets", headers={header: "192.0.2.1"})
+    assert answer.status_code == 403
+    assert "--public-url" in answer.json()["hint"]
+
+
 def test_a_change_asked_for_by_our_own_page_is_made(client: TestClient) -> None:
     headers = {"origin": "http://127.0.0.1:8765", "sec-fetch-site": "same-origin"}
     assert client.post("/api/datasets", json={"name": "x"}, headers=headers).status_code == 201
@@ -89,12 +96,13 @@ def test_a_wrong_method_and_a_wrong_body_have_the_same_form_of_error(client: Tes
 def test_the_openapi_document_has_an_example_for_every_body(client: TestClient) -> None:
     document = client.get("/api/openapi.json").json()
     schemas = document["components"]["schemas"]
-    bodies = {
-        content["schema"]["$ref"].rpartition("/")[2]
+    contents = [
+        content["schema"]
         for path in document["paths"].values()
         for operation in path.values()
         for kind, content in operation.get("requestBody", {}).get("content", {}).items()
         if kind == "application/json"
-    }
+    ]
+    bodies = {choice["$ref"].rpartition("/")[2] for schema in contents for choice in schema.get("anyOf", [schema])}
     assert bodies
     assert not [name for name in bodies if "example" not in schemas[name]]

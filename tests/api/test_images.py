@@ -27,7 +27,8 @@ def test_one_bad_file_fails_alone_with_its_reason(client: TestClient, upload: Up
 def test_a_broken_image_says_so_where_it_is_shown_and_in_its_run(
     client: TestClient, upload: Upload, picture: Picture, finish_run: Callable[[int], dict[str, Any]]
 ) -> None:
-    report = upload("street", {"cut.png": picture(2)[:300], "whole.png": picture(1)})
+    # a PGM is told to be whole when it is decoded, other kinds when they are uploaded
+    report = upload("street", {"cut.pgm": b"P5 200 150 255\n" + bytes(300), "whole.png": picture(1)})
     cut = report["added"][0]["id"]
     shown = client.get(f"/api/images/{cut}/thumbnail")
     assert shown.status_code == 422
@@ -41,6 +42,12 @@ def test_a_broken_image_says_so_where_it_is_shown_and_in_its_run(
     assert client.get(f"/api/images/{cut}").json()["prelabel"] == "failed"
     assert client.post(f"/api/runs/{run}/retry").json() == {"queued": 1}
     assert finish_run(run)["counts"]["failed"] == 1
+
+
+def test_an_image_that_is_cut_off_is_refused_when_it_is_uploaded(client: TestClient, upload: Upload, picture) -> None:
+    report = upload("street", {"cut.png": picture(2)[:300], "whole.png": picture(1)})
+    assert [image["name"] for image in report["added"]] == ["whole"]
+    assert report["failed"][0]["error"]["message"] == "the PNG is cut off"
 
 
 def test_nothing_usable_is_an_error_that_names_each_file(client: TestClient, upload: Upload) -> None:

@@ -38,7 +38,10 @@ def read_segments(session: Reader, image_id: RowId) -> Response:
 @router.get(
     "/points",
     response_class=Response,
-    responses={200: {"content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}},
+    responses={
+        200: {"content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}},
+        **answers(409),
+    },
 )
 def read_points(
     session: Reader,

@@ -51,7 +51,7 @@ def list_run_images(
     return RunImagePage.model_validate(page)
 
 
-@router.post("/runs/{run_id}/retry")
+@router.post("/runs/{run_id}/retry", responses=answers(409))
 def retry_run(server: ServerDep, viewer: ViewerDep, now: Now, run_id: RowId) -> Retried:
     """Queue the images that failed once more."""
     with server.database.write() as session:

@@ -141,9 +141,12 @@ def _shown(server: ServerDep, viewer: ViewerDep, submission_id: RowId) -> int:
 async def watch_submission(
     server: ServerDep, viewer: ViewerDep, submission: Annotated[int, Depends(_shown)]
 ) -> AsyncIterator[ServerSentEvent]:
-    """Send the submission as an event of the kind `submission` whenever it changes, until it is in a final state."""
+    """Send the submission as an event of the kind `submission` whenever it changes, until it is in a final state.
+
+    A server that is to end ends the stream too; browsers ask again by themselves.
+    """
     last = ""
-    while True:
+    while not server.stopping.is_set():
         try:
             answer = await run_in_threadpool(_read, server, viewer, submission)
         except NotFound:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, status
 
-from app.api.deps import Now, Reader, ServerDep
+from app.api.deps import Now, Reader, ServerDep, ViewerDep
 from app.api.problems import answers
 from app.api.schemas.base import RowId
 from app.api.schemas.suggestions import DatasetSuggestions, ImageSuggestions, TrainingState
@@ -35,14 +35,14 @@ def read_dataset_suggestions(session: Reader, slug: str) -> DatasetSuggestions:
 
 
 @router.post("/datasets/{slug}/suggestions/train", status_code=status.HTTP_202_ACCEPTED, responses=answers(409))
-def train(server: ServerDep, now: Now, slug: str) -> TrainingState:
+def train(server: ServerDep, viewer: ViewerDep, now: Now, slug: str) -> TrainingState:
     """Have a dataset's model learnt anew from all decisions so far; it takes some seconds, in the background.
 
     It happens by itself whenever the decisions have grown by a fifth.
     """
     with server.database.write() as session:
         dataset = get_dataset(session, slug)
-        ask_for_training(session, dataset, now)
+        ask_for_training(session, dataset, now, person=viewer.name)
         session.flush()
         answer = TrainingState.model_validate(suggestion_reports.training_state(session, dataset))
     server.dispatcher.wake()

@@ -1,13 +1,14 @@
-"""Health and configuration."""
+"""Health, readiness and configuration."""
 
 from __future__ import annotations
 
 from typing import get_args
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 
 from app import __version__
-from app.api.deps import Reader, ServerDep, ViewerDep
+from app.api.deps import Reader, ServerDep, ViewerDep, get_server
+from app.api.problems import answers
 from app.api.schemas.system import Configuration, Health, Limits
 from app.formats.exports import EXPORTS
 from app.services.installation import instance_of
@@ -17,8 +18,15 @@ router = APIRouter(tags=["system"])
 
 
 @router.get("/health")
-def health() -> Health:
-    """Say that the server answers."""
+async def health() -> Health:
+    """Say that the server answers; neither database nor files are asked, nor a thread that may wait for them."""
+    return Health(version=__version__)
+
+
+@router.get("/ready", responses=answers(503))
+async def ready(request: Request) -> Health:
+    """Say that the server can work: the database answers in the form that is expected, and so does the blob store."""
+    await get_server(request).readiness.require()  # a dependency would wait for a thread
     return Health(version=__version__)
 
 
@@ -34,6 +42,6 @@ def configuration(server: ServerDep, viewer: ViewerDep, session: Reader) -> Conf
         run_defaults={**DetectionParameters().as_dict(), "camera": "joint", "discard": False},
         operating_points=list(get_args(OperatingPoint)),
         export_formats=list(EXPORTS),
-        local=settings.anonymous_role == "owner",
+        local=settings.anonymous == "admin",
         person=viewer.name,
     )

@@ -49,7 +49,11 @@ class ImagePage(Answer):
 
     items: list[ImageSummary]
     next_cursor: str | None
-    total: int
+    total: int = Field(description="Images that match, on all pages together; see ``total_exact``.")
+    total_exact: bool = Field(
+        description="Whether that is all; else there are more. By status, pre-labelling, source, sequence, camera and"
+        " assignee it always is, and by what has to be looked up image by image up to 1,000."
+    )
 
 
 class DatasetName(Answer):

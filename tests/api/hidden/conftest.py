@@ -185,7 +185,7 @@ def fill(world: World) -> None:
     ]
     # by the owner: the maintainer, who brought the labels, may not be the second person
     second_reviews = [
-        world.made("POST", f"/api/images/{image}/second-review", role="owner")["id"] for image in (secret[0], street[0])
+        world.made("POST", f"/api/images/{image}/second-review", role="admin")["id"] for image in (secret[0], street[0])
     ]
     submissions = [submit(world, "hidden", "first"), submit(world, "hidden", "second"), submit(world, "open", "first")]
     world.ids = {
@@ -212,6 +212,7 @@ def fill(world: World) -> None:
         "source": ["a"],
         "limit": [1],
         "size": [640],
+        **{name: [1] for name in ("user_id", "session_id", "token_id", "invitation_id")},
     }
 
 
