@@ -14,11 +14,14 @@ import typer
 
 from app import __version__
 from app.cli.calibrating import calibrate
+from app.cli.cluster import scheduler, worker
 from app.cli.exchange import export, import_
 from app.cli.leaderboard import baseline, card, submit
+from app.cli.moving import backup, migrate, restore
 from app.cli.serving import demo, serve
 from app.cli.terminal import tell, terminal
 from app.cli.tokens import token_commands
+from app.cli.users import user_commands
 from app.cli.without_server import evaluate, prelabel, synthesize
 from app.errors import ClearLinesError
 
@@ -41,9 +44,15 @@ for _name, _command in {
     "submit": submit,
     "baseline": baseline,
     "card": card,
+    "migrate": migrate,
+    "backup": backup,
+    "restore": restore,
+    "scheduler": scheduler,
+    "worker": worker,
 }.items():
     app.command(_name)(_command)
 app.add_typer(token_commands, name="token")
+app.add_typer(user_commands, name="user")
 INTERRUPTED = 130  # exit status after Ctrl-C
 
 

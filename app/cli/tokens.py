@@ -16,8 +16,8 @@ token_commands = typer.Typer(help="Names and roles under which people and progra
 @token_commands.command("create")
 def create_token(
     name: Annotated[str, typer.Argument(help="Of its holder; what they do is stored under it.")],
-    role: Annotated[str, typer.Option(help="reader, submitter, annotator, maintainer or owner.")],
-    expires: Annotated[float | None, typer.Option(metavar="DAYS", help="Good for so many days.")] = None,
+    role: Annotated[str, typer.Option(help="reader, submitter, annotator, maintainer or admin.")],
+    expires: Annotated[float | None, typer.Option(metavar="DAYS", max=36_500, help="Good for so many days.")] = None,
     data: DataDir = None,
 ) -> None:
     """Make a token and print it, this once."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import socket
 import threading
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
+from types import FrameType
 
 import uvicorn
 
@@ -14,6 +16,7 @@ from app.api.application import create_application
 from app.clock import utc_now
 from app.commands.address import address_of
 from app.commands.exchange import import_images
+from app.commands.logs import start_log
 from app.commands.stores import opened_stores
 from app.services import runs
 from app.services.datasets import get_dataset
@@ -21,6 +24,8 @@ from app.services.image_lists import ImageFilter, list_images
 from app.settings import Settings
 
 Progress = Callable[[int, int], None]
+GRACE = 5  # s; for answers under way when the server is to end
+HOSTED_GRACE = 15  # s; uploads through a proxy take longer
 
 
 def import_and_prelabel(settings: Settings, folder: Path, name: str, *, progress: Progress | None = None) -> str:
@@ -49,13 +54,13 @@ def import_and_prelabel(settings: Settings, folder: Path, name: str, *, progress
 
 
 def prepare_data(settings: Settings) -> None:
-    """Make the data folder and the tables if missing, so that what is wrong with them is told before the server starts.
+    """Make the data folder and the tables if missing, so that what is wrong is told before the server starts.
 
     Raises:
         ClearLinesError: As `app.commands.stores.opened_stores`.
     """
-    with opened_stores(settings):
-        pass
+    with opened_stores(settings) as (_, blobs):
+        blobs.check()
 
 
 def run_server(settings: Settings, server: socket.socket, *, open_at: str | None = None) -> None:
@@ -66,11 +71,41 @@ def run_server(settings: Settings, server: socket.socket, *, open_at: str | None
         server: From `listen`; closed at the end.
         open_at: Path to open in a browser once the server answers; ``None`` opens none.
     """
+    start_log(settings)
+    application = create_application(settings)
     config = uvicorn.Config(
-        create_application(settings), log_level="warning", access_log=False, timeout_graceful_shutdown=5, lifespan="on"
+        application,
+        lifespan="on",
+        log_config=None,
+        access_log=False,
+        server_header=False,
+        # where there are no accounts nobody may stand in front
+        proxy_headers=settings.anonymous != "admin",
+        forwarded_allow_ips=settings.trusted_proxies,
+        timeout_graceful_shutdown=HOSTED_GRACE if settings.hosted else GRACE,
     )
     if open_at is not None:
         # the socket listens already: the browser's request waits until the server takes it
         threading.Timer(0.3, webbrowser.open, [address_of(server) + open_at]).start()
     with server:
-        uvicorn.Server(config).run(sockets=[server])
+        EndingServer(config, application.state.stopping).run(sockets=[server])
+
+
+class EndingServer(uvicorn.Server):
+    """A server that tells the application as soon as it is to end: answers that go on for long hold it up else."""
+
+    def __init__(self, config: uvicorn.Config, stopping: threading.Event) -> None:
+        super().__init__(config)
+        self._stopping = stopping
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """See ``uvicorn.Server``."""
+        await super().startup(sockets)
+        # what was imported stays: looking through it again at each full collection would stop requests for 150 ms
+        gc.collect()
+        gc.freeze()
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """See ``uvicorn.Server``."""
+        self._stopping.set()
+        super().handle_exit(sig, frame)

@@ -43,7 +43,7 @@ def end_token(settings: Settings, name: str) -> None:
 
 
 def print_tokens(settings: Settings, console: Console) -> None:
-    """List all tokens: names, roles and times; the tokens themselves are kept nowhere."""
+    """List all tokens, people's own too: names, roles and times; the tokens themselves are kept nowhere."""
     with opened_stores(settings) as (database, _), database.read() as session:
         tokens = list_tokens(session)
     if not tokens:
@@ -54,7 +54,7 @@ def print_tokens(settings: Settings, console: Console) -> None:
 
 def _table(tokens: Sequence[Token], now: datetime) -> Table:
     table = Table(box=None, pad_edge=False)
-    for column in ("name", "role", "state", "made", "expires", "last used"):
+    for column in ("name", "role", "state", "made", "expires", "last used", "label"):
         table.add_column(column)
     for token in tokens:
         table.add_row(
@@ -64,6 +64,7 @@ def _table(tokens: Sequence[Token], now: datetime) -> Table:
             _day(token.created_at),
             _day(token.expires_at),
             _day(token.last_used_at),
+            token.label or "",
         )
     return table
 

@@ -39,3 +39,8 @@ def test_a_port_that_is_taken_is_told_with_what_to_do() -> None:
         listen("127.0.0.1", first.getsockname()[1])
     assert "in use" in refused.value.message
     assert "--port 0" in str(refused.value.hint)
+
+
+def test_where_there_are_accounts_others_may_reach_it() -> None:
+    with listen("0.0.0.0", 0, has_accounts=True) as server:
+        assert address_of(server) == f"http://0.0.0.0:{server.getsockname()[1]}"

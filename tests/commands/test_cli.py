@@ -17,7 +17,8 @@ import pytest
 
 COMMANDS = (
     *("demo", "serve", "prelabel", "evaluate", "calibrate", "synthesize", "import", "export"),
-    *("submit", "baseline", "card", "token"),
+    *("submit", "baseline", "card", "token", "user"),
+    *("migrate", "backup", "restore"),
 )
 
 
@@ -39,7 +40,7 @@ SLOW = ("numpy", "cv2", "scipy", "sqlalchemy", "fastapi", "alembic")
 
 
 MISTAKES = (
-    ["serve", "--host", "0.0.0.0"],
+    ["serve", "--public-url", "lines.example.org"],
     ["serve", "nowhere"],
     ["prelabel", "nowhere", "--output", "out"],
     ["prelabel", ".", "--output", "out", "--format", "xml"],
@@ -50,6 +51,7 @@ MISTAKES = (
     ["calibrate", ".", "--size", "640"],
     ["import", "nowhere", "--dataset", "x"],
     ["export", "x", "--output", "a_file"],
+    ["restore", "nowhere"],
 )
 
 

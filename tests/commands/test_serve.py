@@ -90,3 +90,6 @@ def test_what_is_wrong_with_the_database_is_told_before_the_server_starts(clearl
 def test_the_demo_listens_where_nobody_else_reaches_it_too(clearlines, monkeypatch) -> None:
     monkeypatch.setenv("CLEARLINES_HOST", "0.0.0.0")
     assert "no accounts" in clearlines("demo", "--no-browser", "--port", 0, status=2).stderr
+    monkeypatch.delenv("CLEARLINES_HOST")
+    monkeypatch.setenv("CLEARLINES_PUBLIC_URL", "https://lines.example.org")
+    assert "no accounts" in clearlines("demo", "--no-browser", "--port", 0, status=2).stderr

@@ -70,13 +70,13 @@ def split(tmp_path: Path, clearlines: Callable[..., Any], start: Callable[..., A
     deadline = time.monotonic() + 90
     while True:
         try:
-            httpx.get(f"{address}/api/health").raise_for_status()
+            httpx.get(f"{address}/api/health", timeout=60).raise_for_status()
             break
         except httpx.HTTPError:
             assert time.monotonic() < deadline
             time.sleep(0.1)
     given = {"name": "Street", "visibility": "open", "min_length": 50}
-    made = httpx.post(f"{address}/api/datasets/street/splits", json=given)
+    made = httpx.post(f"{address}/api/datasets/street/splits", json=given, timeout=60)
     assert made.status_code == 201, made.text
     return address, made.json()["slug"]
 
@@ -119,7 +119,7 @@ def test_results_are_checked_handed_in_and_scored(
     assert "Pre-labelling pipeline (ClearLines" in names
     assert "OpenCV LSD (OpenCV" in names
     clearlines("baseline", slug)  # again: nothing new
-    rows = httpx.get(f"{address}/api/splits/{slug}/board").json()["rows"]
+    rows = httpx.get(f"{address}/api/splits/{slug}/board", timeout=60).json()["rows"]
     assert {row["method"]["kind"] for row in rows} == {"baseline", "method"}
     assert len(rows) == 3
     assert {row["method"]["name"]: row["totals"]["recall"]["value"] for row in rows}["OpenCV LSD"] == 1.0
