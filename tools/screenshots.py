@@ -183,6 +183,14 @@ def take_leaderboard(browser: Browser, submission: int) -> None:
     take(page, "viewer")
 
 
+def take_status(browser: Browser, slug: str) -> None:
+    """The state of the server while a run is at work."""
+    ask("POST", f"/datasets/{slug}/runs", {})
+    page = open_page(browser, "/status")
+    page.get_by_role("row", name="Busy").first.wait_for()
+    take(page, "status")
+
+
 def main() -> None:
     found = subprocess.run([sys.executable, ROOT / "tools" / "browser.py"], check=True, capture_output=True, text=True)
     clearlines = Path(sys.executable).with_name("clearlines")
@@ -198,6 +206,7 @@ def main() -> None:
                 )
                 take_all(browser, "demo-streets")
                 take_leaderboard(browser, submission)
+                take_status(browser, "demo-streets")
                 browser.close()
         finally:
             server.terminate()

@@ -111,6 +111,12 @@ def start_server() -> Callable[..., RunningServer]:
 
 
 @pytest.fixture(scope="session")
+def unused_port() -> Callable[[], int]:
+    """Return what finds a port; for servers that must know their address before they start."""
+    return free_port
+
+
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     found = subprocess.run(
         [sys.executable, ROOT / "tools" / "browser.py"], check=True, capture_output=True, text=True

@@ -103,7 +103,10 @@ def test_every_verdict_arrives_once_and_in_order(
     history = server.ask(f"/images/{image}/decisions")["decisions"][before:]
     arrived = [(row["client_id"], row["segment_id"], row["verdict"]) for row in history]
     assert len(set(arrived)) == len(arrived) >= LINES
-    assert arrived == [row for row in recorded["asked"] if row in set(arrived)]
+    # a tab that is closed takes along what the recorder was about to tell of its last rows
+    asked = set(recorded["asked"])
+    assert [row for row in arrived if row in asked] == [row for row in recorded["asked"] if row in set(arrived)]
+    assert len(asked) >= LINES
     assert set(recorded["kept"]) <= set(arrived)
     last = {segment: verdict for _, segment, verdict in arrived}
     segments = server.ask(f"/images/{image}/segments")["segments"]

@@ -46,9 +46,8 @@ def images(
     for number, name in enumerate(IMAGES):
         cv2.imwrite(str(folder / "images" / f"{name}.png"), np.full((HEIGHT, WIDTH), GREY + number, np.uint8))
         (folder / "labels" / f"{name}_edge_segments_filtered.npy").write_bytes(labels)
-    noise = np.random.default_rng(1).integers(0, 255, (HEIGHT, WIDTH), np.uint8)
-    whole = cv2.imencode(".png", noise)[1].tobytes()
-    (folder / "images" / "zz_broken.png").write_bytes(whole[: len(whole) // 2])
+    # a PGM is told to be whole when it is decoded, other kinds when they are brought in
+    (folder / "images" / "zz_broken.pgm").write_bytes(b"P5 %d %d 255\n" % (WIDTH, HEIGHT) + bytes(WIDTH))
     import_dataset(label_server, folder, "review")
     found = {image["name"]: image["id"] for image in label_server.ask("/datasets/review/images")["items"]}
     for name in IMAGES:

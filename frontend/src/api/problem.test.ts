@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { asProblem, problemFrom, RequestFailed, unreachable } from "./problem";
+import { asProblem, problemFrom, problemText, RequestFailed, unreachable } from "./problem";
 
 const problem = { title: "Taken", status: 409, code: "name-taken", message: "The name is taken." };
 
@@ -12,6 +12,17 @@ describe("problems", () => {
     const failed = problemFrom("<html>", new Response("", { status: 502 }));
     expect(failed.problem.code).toBe("http-502");
     expect(failed.temporary).toBe(true);
+  });
+
+  it("are told in sentences", () => {
+    const short = new RequestFailed({
+      ...problem,
+      message: "too short",
+      expected: "10 characters",
+      hint: "add words",
+    });
+    expect(problemText(short)).toBe("Too short. Expected: 10 characters. Add words.");
+    expect(problemText(new RequestFailed(problem))).toBe("The name is taken.");
   });
 
   it("say whether trying again may help", () => {

@@ -1,3 +1,4 @@
+import { sentence } from "../design/format";
 import type { ErrorInfo, Problem } from "./types";
 
 /** A request that the server answered with a problem document, or that never reached it (status 0). */
@@ -47,6 +48,14 @@ export function asProblem(error: unknown, title = "Something went wrong"): Probl
   if (error instanceof Error) return { title, status: 0, code: "unexpected", message: error.message };
   if (isErrorInfo(error)) return { title, status: 0, ...error };
   return { title, status: 0, code: "unexpected", message: String(error) };
+}
+
+/** What is wrong, what was expected and what would help, for the place below a form's fields. */
+export function problemText(error: unknown): string {
+  const { message, expected, hint } = asProblem(error);
+  return [message, expected ? `Expected: ${expected}` : null, hint]
+    .flatMap((text) => (text ? [sentence(text)] : []))
+    .join(" ");
 }
 
 function isProblem(body: unknown): body is Problem {

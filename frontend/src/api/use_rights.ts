@@ -4,7 +4,7 @@ import type { Me } from "./board_types";
 
 export type Rights = Me["can"];
 
-const ALL: Rights = { maintain: true, label: true, submit: true, see_hidden: true };
+const ALL: Rights = { admin: true, maintain: true, label: true, submit: true, see_hidden: true };
 
 /** What whoever looks at the page may do; all of it until that is known, for the server refuses the rest anyway. */
 export function useRights(): Rights {

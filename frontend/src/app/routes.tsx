@@ -79,6 +79,32 @@ export function makeRouter() {
           lazy: async () => ({ Component: (await import("../pages/method/method_page")).MethodPage }),
         },
         {
+          path: "/sign-in",
+          lazy: async () => ({ Component: (await import("../pages/sign_in/sign_in_page")).SignInPage }),
+        },
+        {
+          path: "/invitation",
+          lazy: async () => ({
+            Component: (await import("../pages/invitation/invitation_page")).InvitationPage,
+          }),
+        },
+        {
+          path: "/account",
+          lazy: async () => ({ Component: (await import("../pages/account/account_page")).AccountPage }),
+        },
+        {
+          path: "/people",
+          lazy: async () => ({ Component: (await import("../pages/people/people_page")).PeoplePage }),
+        },
+        {
+          path: "/audit",
+          lazy: async () => ({ Component: (await import("../pages/audit/audit_page")).AuditPage }),
+        },
+        {
+          path: "/status",
+          lazy: async () => ({ Component: (await import("../pages/status/status_page")).StatusPage }),
+        },
+        {
           path: "/docs/scoring",
           lazy: async () => ({
             Component: (await import("../pages/scoring_docs/scoring_docs_page")).ScoringDocsPage,

@@ -1,5 +1,5 @@
 import { ColumnHeads } from "../../design/column_heads";
-import { CopyButton } from "./copy_button";
+import { CopyButton } from "../../design/copy_button";
 import {
   answerSchema,
   curlOf,

@@ -42,7 +42,7 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
   const filter = useMemo(() => toFilter(view), [view]);
   const facets = useQuery({ queryKey: keys.facets(slug), queryFn: () => getFacets(slug) });
   const images = useImages(slug, filter);
-  const { query, items, total, refresh, loadAll } = images;
+  const { query, items, total, exact, refresh, loadAll } = images;
   const [selection, setSelection] = useState<Selection>(NOTHING_SELECTED);
   const [size, setSize] = useGridSize();
   const actions = useImageActions(slug);
@@ -109,7 +109,7 @@ export function ImagesTab({ dataset, active, onPrelabel }: ImagesTabProps) {
         view={view}
         facets={facets.data}
         size={size}
-        countText={countText(view, total, dataset.images, query.isPending)}
+        countText={countText(view, total, exact, dataset.images, query.isPending)}
         searchField={searchField}
         onChange={change}
         onSize={setSize}
@@ -212,10 +212,16 @@ function GridSkeleton({ size }: { size: GridSize }) {
   );
 }
 
-function countText(view: ImageView, total: number, everything: number, pending: boolean): string {
+function countText(
+  view: ImageView,
+  total: number,
+  exact: boolean,
+  everything: number,
+  pending: boolean,
+): string {
   if (pending) return " ";
   if (view.status === "deleted") return `${formatQuantity(total, "deleted image")}`;
   return isFiltered(view)
-    ? `${formatCount(total)} of ${formatQuantity(everything, "image")}`
+    ? `${formatCount(total)}${exact ? "" : "+"} of ${formatQuantity(everything, "image")}`
     : formatQuantity(total, "image");
 }

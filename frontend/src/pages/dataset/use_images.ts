@@ -24,7 +24,7 @@ export function useImages(slug: string, filter: ImageFilter) {
   });
   const { data, fetchNextPage } = query;
   const items = useMemo(() => data?.pages.flatMap((page) => page.items) ?? [], [data]);
-  const total = data?.pages.at(-1)?.total ?? 0;
+  const { total, exact } = countOf(data?.pages.at(-1), items.length);
 
   /** Asks again for the pages that hold these places alone: a run changes images all over a long list. */
   const refresh = useCallback(
@@ -54,7 +54,18 @@ export function useImages(slug: string, filter: ImageFilter) {
     return result.data?.pages.flatMap((page) => page.items) ?? [];
   }, [fetchNextPage]);
 
-  return { query, items, total, refresh, loadAll };
+  return { query, items, total, exact, refresh, loadAll };
+}
+
+/** How many images there are, as far as that is known; one more than are loaded has the next page asked for. */
+export function countOf(
+  last: Pick<ImagePage, "total" | "total_exact" | "next_cursor"> | undefined,
+  loaded: number,
+): { total: number; exact: boolean } {
+  if (!last) return { total: 0, exact: true };
+  if (last.total_exact) return { total: last.total, exact: true };
+  if (last.next_cursor === null) return { total: loaded, exact: true };
+  return { total: Math.max(last.total, loaded + 1), exact: false };
 }
 
 /** The ids of all images that a filter lets through. */

@@ -1,4 +1,4 @@
-import { CopyButton } from "../api_docs/copy_button";
+import { CopyButton } from "../../design/copy_button";
 
 const PER_IMAGE_JSON = `{"segments": [
   {"points": [[102.5, 40.0], [103.1, 41.0], [104.0, 42.0]], "score": 0.93},

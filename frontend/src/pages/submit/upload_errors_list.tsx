@@ -1,8 +1,8 @@
 import { useState } from "react";
 import type { UploadError } from "../../api/board_types";
 import { Button } from "../../design/button";
+import { CopyButton } from "../../design/copy_button";
 import { formatCount, formatQuantity, sentence } from "../../design/format";
-import { CopyButton } from "../api_docs/copy_button";
 import { adviceText, errorsText, type FileErrors, groupByFile, placeText } from "./upload_errors";
 import "./validation.css";
 

@@ -84,7 +84,7 @@ export function JumpBox({ slug, onGo, onClose }: JumpBoxProps) {
             : found.length === 0
               ? `No image's name holds “${search}”.`
               : found.length < (data?.total ?? 0)
-                ? `${formatCount(data?.total ?? 0)} images; type on to narrow them down`
+                ? `${formatCount(data?.total ?? 0)}${data?.total_exact ? "" : "+"} images; type on to narrow them down`
                 : "↑ ↓ to choose, Enter to go, Esc to stay"}
       </p>
     </search>

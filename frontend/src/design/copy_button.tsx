@@ -1,6 +1,6 @@
 import { useState } from "react";
-import { IconButton } from "../../design/button";
-import { toast } from "../../design/toast";
+import { IconButton } from "./button";
+import { toast } from "./toast";
 
 const SHOWN_MS = 1_500;
 
