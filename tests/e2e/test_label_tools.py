@@ -300,7 +300,7 @@ def test_keys_alone_judge_two_frames(page: Page, label_server: Any, images: dict
     page.wait_for_url(f"**/images/{second}")
     selection(page).to_contain_text("Candidate 1 of 8")
     page.keyboard.press("y")
-    expect(page.get_by_text("2 candidates judged as in the frames beside")).to_be_visible()
+    expect(page.get_by_text("2 candidates judged as in the frames beside")).to_be_visible(timeout=30_000)
     judged(page, 2)
     stored(label_server, second, "keep", "reject", *["undecided"] * 6)
     assert segments(label_server, second)[1]["reason"] == "curved"

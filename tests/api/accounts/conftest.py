@@ -73,7 +73,7 @@ class Place:
     def browser(self, name: str | None = None, password: str = PASSWORD, *, agent: str = "Firefox") -> TestClient:
         """Return a browser of its own, which sends what browsers send, signed in where a name is given."""
         application: Any = self.client.app
-        browser = TestClient(application, base_url=ADDRESS, headers={**OWN_PAGE, "User-Agent": agent})
+        browser = TestClient(application, base_url=ADDRESS, headers={**OWN_PAGE, "user-agent": agent})
         if name is not None:
             answer = browser.post("/api/session", json={"name": name, "password": password})
             assert answer.status_code == 200, answer.text
