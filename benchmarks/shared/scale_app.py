@@ -15,6 +15,7 @@ import httpx2 as httpx
 import uvicorn
 
 from app.api.application import create_application
+from app.commands.serve import EndingServer
 from app.settings import Settings
 
 READY = 120.0  # s
@@ -65,7 +66,8 @@ def _wait_for(client: httpx.Client, address: str, process: Popen[bytes], log: Pa
 def main() -> None:
     address, folder, port = sys.argv[1:]
     application = create_application(scale_settings(address, Path(folder)))
-    uvicorn.run(application, host="127.0.0.1", port=int(port), log_level="warning", access_log=False)
+    config = uvicorn.Config(application, host="127.0.0.1", port=int(port), log_level="warning", access_log=False)
+    EndingServer(config, application.state.stopping).run()  # as `clearlines serve` does
 
 
 if __name__ == "__main__":
