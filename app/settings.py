@@ -84,7 +84,9 @@ class Settings(BaseSettings):
     )
 
     log_format: Literal["text", "json"] = Field(default="text", description="One line of text, or of JSON, per event.")
-    log_level: Literal["debug", "info", "warning", "error"] = Field(default="info", description="What is logged.")
+    log_level: Literal["debug", "info", "warning", "error"] | None = Field(
+        default=None, description="What is logged; warning in local mode and info else if unset."
+    )
     metrics_token: SecretStr | None = Field(default=None, description="Bearer token that may read /metrics.")
 
     blob_url: str | None = Field(
@@ -154,6 +156,11 @@ class Settings(BaseSettings):
     def anonymous(self) -> Literal["admin", "reader"]:
         """The role of who asks without an account or token."""
         return self.anonymous_role or ("reader" if self.hosted else "admin")
+
+    @property
+    def logged(self) -> Literal["debug", "info", "warning", "error"]:
+        """The least level that is logged: in local mode a terminal shows what needs a look, and nothing else."""
+        return self.log_level or ("info" if self.hosted else "warning")
 
     @property
     def backups(self) -> Path:

@@ -18,7 +18,7 @@ SHORTEST = 4
 
 def start_log(settings: Settings) -> None:
     """Begin to write the log to standard error."""
-    configure_logs(settings.log_format, settings.log_level, redaction=Redaction(secrets_of(settings)))
+    configure_logs(settings.log_format, settings.logged, redaction=Redaction(secrets_of(settings)))
 
 
 def secrets_of(settings: Settings) -> frozenset[str]:

@@ -152,6 +152,7 @@ class Topology:
                 "CLEARLINES_DATA_DIR": str(self.folder / "data"),
                 "CLEARLINES_DATABASE_URL": self.database_url,
                 "CLEARLINES_HEARTBEAT_SECONDS": "0.5",
+                "CLEARLINES_LOG_LEVEL": "info",
                 "TMPDIR": str(self.folder),
                 **self.settings,
             }
