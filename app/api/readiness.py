@@ -11,9 +11,9 @@ from anyio import CapacityLimiter
 from anyio.to_thread import run_sync
 from sqlalchemy import text
 
+from app.db.migrations import revisions, stored_revision
 from app.db.session import Database
 from app.errors import ClearLinesError, Unavailable
-from app.services.database_status import newest_revision, revision_of
 from app.storage import BlobStore
 
 SECONDS = 4.0
@@ -34,7 +34,7 @@ class Readiness:
 
     database: Database
     blobs: BlobStore
-    expected: str | None = field(default_factory=newest_revision)
+    expected: str = field(default_factory=lambda: revisions()[-1])
     seconds: float = SECONDS
     clock: Callable[[], float] = time.monotonic
     _asked_at: float = field(default=float("-inf"), init=False)
@@ -75,7 +75,7 @@ class Readiness:
     def _check_database(self) -> None:
         with self.database.read() as session:
             session.execute(text("SELECT 1"))
-            found = revision_of(session)
+            found = stored_revision(session.connection())
         if found != self.expected:
             raise Unavailable(
                 "the tables have another form than this version of ClearLines works with",

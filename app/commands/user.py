@@ -12,6 +12,7 @@ from rich.table import Table
 from app.clock import utc_now
 from app.commands.stores import opened_stores
 from app.services import accounts
+from app.services.access import checked_role
 from app.services.account_names import checked_account_name, require_free_name
 from app.services.events import Actor
 from app.services.invitations import NewInvitation, invitation_address, invite, offer_reset
@@ -31,7 +32,7 @@ def require_possible(settings: Settings, name: str, role: str, email: str | None
         InvalidInput: When name, role or email can't be.
         Conflict: When the name is or was somebody's.
     """
-    accounts.checked_role(role)
+    checked_role(role)
     accounts.checked_email(email)
     with opened_stores(settings) as (database, _), database.read() as session:
         require_free_name(session, checked_account_name(name), chosen=False)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, Executor
 from datetime import datetime, timedelta
 
+from app.db.locks import lock_for
 from app.db.session import Database
 from app.jobs.arrivals import end_hung, store_arrived
 from app.jobs.calibration_work import has_calibrations, look_after_calibrations
@@ -24,7 +25,6 @@ from app.jobs.flight import Flight
 from app.jobs.intake import take_work, work_is_left
 from app.jobs.journal import Journal, OnWork
 from app.jobs.limits import TaskLimits
-from app.jobs.lock import lock_for
 from app.jobs.stores import Stores
 from app.jobs.suggestion_intake import SuggestionIntake
 from app.jobs.trouble import DATABASE_TROUBLE, reason_of
@@ -90,7 +90,8 @@ class Dispatcher:
         self._stopping = threading.Event()
         self._flight = Flight(self._crew, self._signal.set)
         self._suggestions = SuggestionIntake()
-        self._lock = lock_for(database)
+        # it ends with the process that holds it, so all work that the rows call running was left behind
+        self._lock = lock_for(database, "dispatcher")
         self._holds_lock = False
         self._deserted_at: float | None = None
         self._last_beat: float | None = None

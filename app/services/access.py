@@ -20,6 +20,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from app.errors import InvalidInput
+
 Role = Literal["reader", "submitter", "annotator", "maintainer", "admin"]
 ROLES: tuple[Role, ...] = get_args(Role)
 """From the least to the most."""
@@ -48,6 +50,18 @@ class Viewer:
 def lesser_role(one: str, other: str) -> Role:
     """Return the role of two that may less."""
     return next(role for role in ROLES if role in (one, other))
+
+
+def checked_role(role: str) -> Role:
+    """Return the role.
+
+    Raises:
+        InvalidInput: When there is none of that name.
+    """
+    for known in ROLES:
+        if known == role:
+            return known
+    raise InvalidInput(f"there is no role {role!r:.60}", where="role", expected=", ".join(ROLES))
 
 
 def is_at_least(viewer: Viewer, role: Role) -> bool:

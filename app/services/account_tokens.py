@@ -10,8 +10,8 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Token
 from app.errors import Conflict, Forbidden, NotFound
-from app.services.access import Role, lesser_role
-from app.services.accounts import checked_role, get_account
+from app.services.access import Role, checked_role, lesser_role
+from app.services.accounts import get_account
 from app.services.events import Actor, record_account_event
 from app.services.given import checked_name
 from app.services.link_revoking import revoke_links_by

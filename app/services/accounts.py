@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Token, User
 from app.errors import Conflict, InvalidInput, NotFound
-from app.services.access import ROLES
+from app.services.access import checked_role
 from app.services.account_names import checked_account_name, name_key, require_free_name, typed_key
 from app.services.events import Actor, record_account_event
 from app.services.link_revoking import revoke_links_by, revoke_links_to
@@ -204,17 +204,6 @@ def change_password(
     ended = end_sessions(session, user.id, now, but=keep)
     revoke_links_to(session, user.id, now)
     record_account_event(session, kind, now, actor, name=user.name, sessions_ended=ended)
-
-
-def checked_role(role: str) -> str:
-    """Return the role.
-
-    Raises:
-        InvalidInput: When there is none of that name.
-    """
-    if role not in ROLES:
-        raise InvalidInput(f"there is no role {role!r:.60}", where="role", expected=", ".join(ROLES))
-    return role
 
 
 def checked_email(email: str | None) -> str | None:

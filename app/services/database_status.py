@@ -8,7 +8,7 @@ from pathlib import Path
 from sqlalchemy import text
 from sqlalchemy.orm import Session
 
-from app.db.migrations import configuration
+from app.db.migrations import stored_revision
 from app.db.session import Database
 
 
@@ -54,7 +54,7 @@ def database_status(database: Database, session: Session) -> DatabaseStatus:
         str(version),
         database.engine.url.set(query={}).render_as_string(hide_password=True),
         size,
-        revision_of(session),
+        stored_revision(session.connection()),
         connections,
         used,
     )
@@ -66,19 +66,6 @@ def connection_counts(database: Database) -> tuple[int, int]:
     used: int = pool.checkedout()  # pyright: ignore[reportAttributeAccessIssue]
     idle: int = pool.checkedin()  # pyright: ignore[reportAttributeAccessIssue]
     return used + idle, used
-
-
-def revision_of(session: Session) -> str | None:
-    """Return the form of the tables, by the name of the last migration."""
-    return session.scalar(text("SELECT version_num FROM alembic_version"))
-
-
-def newest_revision() -> str | None:
-    """Return the form of the tables that this version of ClearLines works with."""
-    # it takes long to import, and is needed once
-    from alembic.script import ScriptDirectory
-
-    return ScriptDirectory.from_config(configuration()).get_current_head()
 
 
 def _file_bytes(path: Path) -> int:

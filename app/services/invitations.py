@@ -13,9 +13,9 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Invitation, User
 from app.errors import Conflict, InvalidInput, NotFound
-from app.services.access import Role
+from app.services.access import Role, checked_role
 from app.services.account_names import checked_account_name, require_free_name
-from app.services.accounts import checked_role, get_account
+from app.services.accounts import get_account
 from app.services.events import Actor, record_account_event
 from app.services.link_revoking import revoke_links_to
 from app.services.tokens import RANDOM_BYTES, hash_of

@@ -17,7 +17,7 @@ from sqlalchemy.orm import Session
 
 from app.db.models import Token, User
 from app.errors import Conflict, InvalidInput, NotFound, Unauthenticated
-from app.services.access import ROLES, Role, Viewer, lesser_role
+from app.services.access import Role, Viewer, checked_role, lesser_role
 from app.services.account_names import require_no_account
 from app.services.events import record_event
 from app.services.given import checked_name
@@ -63,8 +63,7 @@ def create_token(
         Conflict: When a living token or any account has the name.
     """
     name = checked_name(name)
-    if role not in ROLES:
-        raise InvalidInput(f"there is no role {role!r:.60}", where="role", expected=", ".join(ROLES))
+    role = checked_role(role)
     lifetime = checked_lifetime(lifetime)
     if session.scalar(select(Token.id).where(_is_living(name))) is not None:
         raise Conflict(f"a token named {name} exists already", where="name", hint="revoke that one, or take a new name")

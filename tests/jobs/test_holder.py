@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from app.db.locks import lock_for
 from app.db.session import Database
 from app.jobs.holder import holder_of_lock
-from app.jobs.lock import lock_for
 
 
 def test_the_database_tells_who_gives_work_out(database: Database) -> None:
     with database.read() as session:
         assert holder_of_lock(session) is None
-    lock = lock_for(database)
+    lock = lock_for(database, "dispatcher")
     assert lock.acquire()
     try:
         with database.read() as session:

@@ -12,8 +12,8 @@ from pathlib import Path
 import psutil
 from sqlalchemy import func, select
 
+from app.db.locks import lock_for
 from app.db.models import Image, RunImage, Segment
-from app.jobs.lock import lock_for
 from app.jobs.work import Tasks
 
 HERE = Path(__file__).parent
@@ -132,6 +132,6 @@ def test_a_stopped_dispatcher_puts_its_work_back_and_ends_its_workers(small_yard
     dispatcher.stop()
     assert {(row.status, row.attempts) for row in yard.rows(run_id).values()} == {("queued", 0)}
     eventually(lambda: not any(is_alive(worker) for worker in begun.values()), "the workers have ended")
-    free = lock_for(yard.database)
+    free = lock_for(yard.database, "dispatcher")
     assert free.acquire()
     free.release()

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from sqlalchemy import text
 
+from app.db.locks import lock_for
 from app.db.session import open_database
-from app.jobs.lock import lock_for
 
 
 def test_only_one_holds_the_lock(database, database_url: str) -> None:
     other_database = open_database(database_url)
-    first, second = lock_for(database), lock_for(other_database)
+    first, second = lock_for(database, "dispatcher"), lock_for(other_database, "dispatcher")
     assert first.acquire()
     assert first.acquire()
     assert not second.acquire()
@@ -25,7 +25,7 @@ def test_only_one_holds_the_lock(database, database_url: str) -> None:
 def test_a_lock_whose_connection_broke_is_free_for_another(database, database_url: str) -> None:
     if database.is_sqlite:
         return  # a file lock has no connection that could break
-    lock, other = lock_for(database), lock_for(database)
+    lock, other = lock_for(database, "dispatcher"), lock_for(database, "dispatcher")
     assert lock.acquire()
     with database.engine.connect() as connection:
         connection.execute(
