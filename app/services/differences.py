@@ -13,7 +13,7 @@ from sqlalchemy.orm import Session
 from app.db.models import Adjudication, Dataset, Image, SecondReview, Segment
 from app.services.batches import in_batches
 from app.services.paging import Order, Page, checked_limit, page_of, read_cursor
-from app.services.verdict_pairs import First, Second, select_pairs
+from app.services.verdict_pairs import select_pairs
 
 BY_IMAGE = Order("image", Image.name, Segment.id)
 IMAGES_AT_ONCE = 20
@@ -105,9 +105,9 @@ def count_differences(session: Session, dataset: Dataset, *, adjudicated: bool |
 
 def difference_on(session: Session, dataset: Dataset, second_review_id: int, segment_id: int) -> Difference | None:
     """Return one difference; ``None`` where both agree, or one of them said nothing."""
-    query = select_differences(dataset).where(
-        Second.second_review_id == second_review_id, Second.segment_id == segment_id
-    )
+    review = session.get(SecondReview, second_review_id)
+    images = [] if review is None else [review.image_id]
+    query = select_differences(dataset, images).where(SecondReview.id == second_review_id, Segment.id == segment_id)
     row = session.execute(query).one_or_none()
     return None if row is None else _difference(row)
 
@@ -132,9 +132,9 @@ def _chosen(query: Select[*tuple[Any, ...]], adjudicated: bool | None) -> Select
 
 def select_differences(dataset: Dataset, image_ids: Collection[int] | None = None) -> Select[*tuple[Any, ...]]:
     """Select the columns of ``VerdictPair``, the candidate's box, and what was decided since."""
-    here = and_(Adjudication.second_review_id == Second.second_review_id, Adjudication.segment_id == Second.segment_id)
+    here = and_(Adjudication.second_review_id == SecondReview.id, Adjudication.segment_id == Segment.id)
     return (
-        select_pairs(dataset, image_ids)
+        select_pairs(dataset, image_ids, differing=True)
         .add_columns(
             Segment.x0,
             Segment.y0,
@@ -145,7 +145,6 @@ def select_differences(dataset: Dataset, image_ids: Collection[int] | None = Non
             Adjudication.created_at.label("adjudicated_at"),
         )
         .outerjoin(Adjudication, here)
-        .where(First.verdict != Second.verdict)
     )
 
 

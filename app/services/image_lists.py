@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any, TypeVar
 
 from sqlalchemy import ColumnElement, Select, select
-from sqlalchemy.orm import InstrumentedAttribute, Session
+from sqlalchemy.orm import InstrumentedAttribute, Session, aliased
 
-from app.db.models import REVIEW_STATES, Camera, Dataset, Image, ImageTally, Review
+from app.db.models import REVIEW_STATES, Camera, Dataset, Image, ImageTally
 from app.errors import InvalidInput
 from app.services.image_candidates import candidate_conditions
-from app.services.image_summaries import ImageSummary, image_summaries, select_summaries
+from app.services.image_summaries import ImageSummary, select_summaries, summaries_of
 from app.services.paging import Counted, Order, Page, checked_limit, counted_up_to, page_of
 from app.services.tallies import counts_by, image_count, of_dataset
 
@@ -31,6 +32,8 @@ ORDERS = {
         Order("-candidates", Image.n_candidates, Image.id, descending=True),
     )
 }
+SHOWN = {"name": "name", "created": "created_at", "candidates": "candidates"}
+"""What summaries call that which they are in order of."""
 
 
 @dataclass(frozen=True)
@@ -109,23 +112,15 @@ def list_images(
     if order is None:
         raise InvalidInput(f"images can't be sorted by {sort!r:.60}", where="sort", expected=", ".join(ORDERS))
     limit = checked_limit(limit)
-    matching = _choose(select(Image.id, order.column), dataset, chosen)
+    matching = _choose(select(Image), dataset, chosen)
     query = matching.where(order.after(cursor)) if cursor else matching
-    rows = session.execute(query.order_by(*order.clauses()).limit(limit + 1)).all()
+    # found first, by an index, and only then joined with what is shown of them
+    found = aliased(Image, query.order_by(*order.clauses()).limit(limit + 1).subquery())
+    rows = summaries_of(session, select_summaries(found).order_by(*order.on(found).clauses()))
     whole = cursor is None and len(rows) <= limit
     total = Counted(len(rows)) if whole else _total(session, dataset, chosen, matching)
-    page = page_of(rows, limit, order, lambda row: (row[1], row[0]), total)
-    summaries = image_summaries(session, [row[0] for row in page.items])
-    return Page(tuple(summaries), page.next_cursor, page.total, page.total_exact)
-
-
-def select_images(dataset: Dataset, chosen: ImageFilter) -> Select[Image, Review, str]:
-    """Select ``Image``, ``Review`` and the camera's name of the images that the filter chooses, in no order.
-
-    Raises:
-        InvalidInput: On an unknown status, prelabel state or verdict.
-    """
-    return _choose(select_summaries(), dataset, chosen)
+    key = attrgetter(SHOWN[sort.removeprefix("-")], "id")
+    return page_of(rows, limit, order, key, total)
 
 
 def facets(session: Session, dataset: Dataset) -> Facets:

@@ -6,7 +6,7 @@ import base64
 import binascii
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from typing import Any, Generic, TypeGuard, TypeVar
 
@@ -76,6 +76,11 @@ class Order:
         if self.descending:
             return self.column.desc(), self.id_column.desc()
         return self.column.asc(), self.id_column.asc()
+
+    def on(self, entity: Any) -> Order:
+        """Return the same order of an alias of the table."""
+        column, id_column = (getattr(entity, each.key) for each in (self.column, self.id_column))
+        return replace(self, column=column, id_column=id_column)
 
     def after(self, cursor: str) -> ColumnElement[bool]:
         """Return the condition that a row comes after the one the cursor names.

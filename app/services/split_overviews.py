@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 
-from sqlalchemy import func, select
+from sqlalchemy import func, or_, select
 from sqlalchemy.orm import Session, selectinload
 
 from app.db.models import Dataset, Decision, Image, Split, SplitImage, SplitVersion, Submission
@@ -147,15 +147,15 @@ def overviews(session: Session, splits: Sequence[Split], viewer: Viewer, now: da
 def labels_since(session: Session, blobs: BlobStore, split: Split) -> LabelsSince:
     """Compare the newest version with the labels as they are now, image by image."""
     version = current_version(session, split)
-    rows = session.execute(
-        select(SplitImage.name, Image.id)
-        .outerjoin(Image, (Image.id == SplitImage.image_id) & Image.deleted_at.is_(None))
-        .where(SplitImage.version_id == version.id)
-        .order_by(SplitImage.ordinal)
-    ).all()
-    gone = tuple(row.name for row in rows if row.id is None)
     # labels change by decisions alone; one that was on its way while the split was frozen has an earlier time
     since = version.created_at - LATEST_DECISION
+    # looked up image by image, so that it takes no longer where there are more of others
+    is_there = (
+        select(Image.deleted_at.is_(None))
+        .where(Image.id == SplitImage.image_id)
+        .correlate(SplitImage)
+        .scalar_subquery()
+    )
     # the decisions of an image are stored one after the other, so the last one tells; an index has it
     latest = (
         select(Decision.created_at)
@@ -165,9 +165,18 @@ def labels_since(session: Session, blobs: BlobStore, split: Split) -> LabelsSinc
         .correlate(SplitImage)
         .scalar_subquery()
     )
-    changed_since = select(SplitImage.image_id).where(SplitImage.version_id == version.id, latest >= since)
-    decided = {image_id for image_id in session.scalars(changed_since) if image_id is not None}
-    frozen_names = {row.id: row.name for row in rows if row.id in decided}
+    suspects = (
+        select(SplitImage.name, SplitImage.image_id, is_there.label("is_there"), latest.label("latest"))
+        .where(SplitImage.version_id == version.id)
+        .subquery()
+    )
+    rows = session.execute(
+        select(suspects.c.name, suspects.c.image_id, suspects.c.is_there)
+        .where(or_(suspects.c.is_there.is_not(True), suspects.c.latest >= since))
+        .order_by(suspects.c.name)
+    ).all()
+    gone = tuple(row.name for row in rows if not row.is_there)
+    frozen_names = {row.image_id: row.name for row in rows if row.is_there}
     if not frozen_names:
         return LabelsSince((), gone)
     frozen, rejected = read_truth(blobs, version), read_rejected(session, version)

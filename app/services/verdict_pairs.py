@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from sqlalchemy import ColumnElement, Select, Subquery, and_, func, or_, select
+from sqlalchemy import CTE, Select, Subquery, func, or_, select
 from sqlalchemy.orm import Session, aliased
 
 from app.db.models import Dataset, Decision, Image, SecondDecision, SecondReview, Segment
@@ -44,7 +44,7 @@ class VerdictPair:
 
 
 def select_pairs(
-    dataset: Dataset, image_ids: Collection[int] | None = None
+    dataset: Dataset, image_ids: Collection[int] | None = None, *, differing: bool = False
 ) -> Select[int, int, str, int, float, str, str | None, str, str | None]:
     """Select the columns of ``VerdictPair`` for all candidates that both judged in second reviews that are done.
 
@@ -53,11 +53,9 @@ def select_pairs(
     Args:
         dataset: The dataset.
         image_ids: Of these images alone.
+        differing: Only candidates on which both differ.
     """
-    of_dataset = (Image.dataset_id == dataset.id) & Image.deleted_at.is_(None) & (SecondReview.status == "done")
-    if image_ids is not None:
-        of_dataset &= SecondReview.image_id.in_(image_ids)
-    first, second = _latest_first(of_dataset), _latest_second(of_dataset)
+    judged = _judged_by_both(_compared(dataset, image_ids), differing=differing)
     return (
         select(
             SecondReview.id.label("second_review_id"),
@@ -65,19 +63,16 @@ def select_pairs(
             Image.name.label("image"),
             Segment.id.label("segment_id"),
             Segment.length,
-            First.verdict.label("first"),
-            First.person.label("first_person"),
-            Second.verdict.label("second"),
+            judged.c.first,
+            judged.c.first_person,
+            judged.c.second,
             SecondReview.person.label("second_person"),
         )
-        .select_from(second)
-        .join(Second, Second.id == second.c.id)
-        .join(SecondReview, SecondReview.id == Second.second_review_id)
-        .join(Segment, Segment.id == Second.segment_id)
+        .select_from(judged)
+        .join(SecondReview, SecondReview.id == judged.c.second_review_id)
+        .join(Segment, Segment.id == judged.c.segment_id)
         .join(Image, Image.id == SecondReview.image_id)
-        .join(first, first.c.segment_id == Segment.id)
-        .join(First, First.id == first.c.id)
-        .where(First.verdict.in_(JUDGED), Second.verdict.in_(JUDGED), Segment.origin != "manual")
+        .where(Segment.origin != "manual")
     )
 
 
@@ -87,34 +82,58 @@ def verdict_pairs(session: Session, dataset: Dataset) -> list[VerdictPair]:
     return [VerdictPair(*row) for row in rows]
 
 
-def _latest_first(of_dataset: ColumnElement[bool]) -> Subquery:
+def _compared(dataset: Dataset, image_ids: Collection[int] | None) -> CTE:
+    """Return the second reviews whose verdicts are compared with the first ones."""
+    query = (
+        select(SecondReview.id, SecondReview.image_id, SecondReview.first_decision_id, SecondReview.done_at)
+        .join(Image, Image.id == SecondReview.image_id)
+        .where(Image.dataset_id == dataset.id, Image.deleted_at.is_(None), SecondReview.status == "done")
+    )
+    return (query if image_ids is None else query.where(SecondReview.image_id.in_(image_ids))).cte("compared")
+
+
+def _judged_by_both(compared: CTE, *, differing: bool) -> CTE:
+    """Return both verdicts on each candidate, found before anything is looked up that is only shown."""
+    first, second = _latest_first(compared), _latest_second(compared)
+    pairs = (
+        select(
+            Second.second_review_id,
+            Second.segment_id,
+            First.verdict.label("first"),
+            First.person.label("first_person"),
+            Second.verdict.label("second"),
+        )
+        .select_from(second)
+        .join(Second, Second.id == second.c.id)
+        .join(first, first.c.segment_id == Second.segment_id)
+        .join(First, First.id == first.c.id)
+        .where(First.verdict.in_(JUDGED), Second.verdict.in_(JUDGED))
+    )
+    pairs = pairs.where(First.verdict != Second.verdict) if differing else pairs
+    return pairs.cte("judged").prefix_with("MATERIALIZED", dialect="postgresql")
+
+
+def _latest_first(compared: CTE) -> Subquery:
     # a run's carrying repeats what was said before it
-    before = or_(Decision.id <= SecondReview.first_decision_id, Decision.kind == "carry")
+    before = or_(Decision.id <= compared.c.first_decision_id, Decision.kind == "carry")
     return (
         select(Decision.segment_id, func.max(Decision.id).label("id"))
-        .join(SecondReview, SecondReview.image_id == Decision.image_id)
-        .join(Image, Image.id == Decision.image_id)
-        .where(and_(of_dataset, before))
+        .join(compared, compared.c.image_id == Decision.image_id)
+        .where(before)
         .group_by(Decision.segment_id)
         .subquery("latest_first")
     )
 
 
-def _latest_second(of_dataset: ColumnElement[bool]) -> Subquery:
+def _latest_second(compared: CTE) -> Subquery:
     # one of each candidate, though runs replaced its segment while it was being judged
-    judged = (
-        select(SecondDecision.segment_id)
-        .join(SecondReview, SecondReview.id == SecondDecision.second_review_id)
-        .join(Image, Image.id == SecondReview.image_id)
-        .where(of_dataset)
-    )
+    judged = select(SecondDecision.segment_id).join(compared, compared.c.id == SecondDecision.second_review_id)
     last = last_of_each(judged, "succession")
     return (
         select(func.max(SecondDecision.id).label("id"))
-        .join(SecondReview, SecondReview.id == SecondDecision.second_review_id)
-        .join(Image, Image.id == SecondReview.image_id)
+        .join(compared, compared.c.id == SecondDecision.second_review_id)
         .join(last, last.c.segment_id == SecondDecision.segment_id)
-        .where(of_dataset, SecondDecision.created_at <= SecondReview.done_at)
+        .where(SecondDecision.created_at <= compared.c.done_at)
         .group_by(SecondDecision.second_review_id, last.c.last_id)
         .subquery("latest_second")
     )

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 import zlib
 from datetime import timedelta
 from typing import Any
@@ -264,6 +265,7 @@ def test_pages_by_name_are_read_from_an_index_in_order(place, count_queries) -> 
         values = (1, "more/001000", 1, 51, 0) if place.database.is_sqlite else words
         explain = "EXPLAIN QUERY PLAN" if place.database.is_sqlite else "EXPLAIN"
         plan = str(session.connection().exec_driver_sql(f"{explain} {listed}", values).all())
-    assert "Seq Scan" not in plan
+    # two thousand reviews are so few that they may well be read whole
+    assert "Seq Scan on images" not in plan
     assert "SCAN images" not in plan
-    assert "index" in plan.lower()
+    assert re.search(r"(Scan using|SEARCH images USING( COVERING)? INDEX) \w*name\w*", plan), plan
