@@ -17,8 +17,8 @@ RUN sed -E 's/ \\$//; /^ +--hash/d' /tmp/requirements.lock > /tmp/constraints.tx
  && useradd --create-home --uid 10001 clearlines \
  && install -d -o clearlines /data
 USER clearlines
+# no VOLUME: scheduler and workers keep nothing, and each of their containers would leave an empty one behind
 ENV CLEARLINES_DATA_DIR=/data
-VOLUME /data
 EXPOSE 8765
 # of a server; the other commands have theirs in docker-compose.yml
 HEALTHCHECK --interval=10s --timeout=3s --start-period=20s \

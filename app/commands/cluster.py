@@ -12,6 +12,7 @@ import signal
 import socket
 import uuid
 from collections.abc import Callable, Coroutine
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,14 +21,15 @@ import dask.config
 from distributed import Nanny, Scheduler, Security
 
 from app.errors import InvalidInput, Unavailable
+from app.jobs.cluster.carrying import knock
 from app.jobs.cluster.tasks import LEAVING
 
 logger = logging.getLogger(__name__)
 
 AGAIN_PAUSE = 2.0
 """Seconds before a worker whose scheduler went away looks for it again."""
-DEATH_TIMEOUT = 10.0
-"""Seconds that a worker process looks for the scheduler before it ends; its command starts another one."""
+START_SECONDS = 60.0
+"""Seconds that a worker process may take to start and register, on a busy machine; then another one is started."""
 SCHEDULER_CONFIG = {
     # the dispatcher charges work that kills its worker, and decides whether it is tried again
     "distributed.scheduler.allowed-failures": 0,
@@ -129,30 +131,46 @@ def run_workers(
     """
 
     async def keep(stop: asyncio.Event) -> None:
+        said = None
         while not stop.is_set():
             try:
-                async with Nanny(
-                    address,
-                    # a scheduler refuses a name that it knows, of one that was killed a moment ago too
-                    name=f"{socket.gethostname()}-{uuid.uuid4().hex[:6]}",
-                    nthreads=1,
-                    memory_limit="0" if megabytes is None else f"{megabytes}MiB",
-                    death_timeout=DEATH_TIMEOUT,
-                    security=None if certificates is None else certificates.security(),
-                    preload=["app.jobs.cluster.preload"],
-                    lifetime=lifetime,
-                    lifetime_stagger=0 if lifetime is None else lifetime / 10,
-                    dashboard=False,
-                    dashboard_address="127.0.0.1:0",
-                ) as nanny:
-                    announce(nanny.worker_address or nanny.address)
-                    await _first(stop.wait(), nanny.finished())
-                    if stop.is_set():
-                        # else its work would look as if it had killed it
-                        await nanny.scheduler.log_event(topic=LEAVING, msg={"worker": nanny.worker_address})
+                await knock(address)
+                await work(stop)
+                said = None
             except Exception as error:  # whatever it is, the scheduler may be back in a moment
-                logger.warning("a worker can't work, and begins again: %s", error)
+                slow = f"it took more than {START_SECONDS:g} s to start"
+                problem = slow if isinstance(error, TimeoutError) else str(error) or type(error).__name__
+                if problem != said:
+                    logger.warning("a worker can't work, and tries again every %g s: %s", AGAIN_PAUSE, problem)
+                said = problem
             await _first(stop.wait(), asyncio.sleep(AGAIN_PAUSE))
+
+    async def work(stop: asyncio.Event) -> None:
+        nanny = Nanny(
+            address,
+            # a scheduler refuses a name that it knows, of one that was killed a moment ago too
+            name=f"{socket.gethostname()}-{uuid.uuid4().hex[:6]}",
+            nthreads=1,
+            memory_limit="0" if megabytes is None else f"{megabytes}MiB",
+            security=None if certificates is None else certificates.security(),
+            preload=["app.jobs.cluster.preload"],
+            lifetime=lifetime,
+            lifetime_stagger=0 if lifetime is None else lifetime / 10,
+            dashboard=False,
+            dashboard_address="127.0.0.1:0",
+        )
+        beginning = asyncio.ensure_future(_begin(nanny))
+        try:
+            await asyncio.wait_for(_first(stop.wait(), _done(beginning)), START_SECONDS)
+            if beginning.done():
+                beginning.result()
+                announce(nanny.worker_address or nanny.address)
+                await _first(stop.wait(), nanny.finished())
+                if stop.is_set():
+                    # else its work would look as if it had killed it
+                    await nanny.scheduler.log_event(topic=LEAVING, msg={"worker": nanny.worker_address})
+        finally:
+            await _end(nanny, beginning)
 
     async def run() -> None:
         stop = _stop_signal()
@@ -185,6 +203,28 @@ def _stop_signal() -> asyncio.Event:
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, stop.set)
     return stop
+
+
+async def _begin(nanny: Nanny) -> None:
+    await nanny
+
+
+async def _done(task: asyncio.Future[None]) -> None:
+    await asyncio.wait({task})
+
+
+async def _end(nanny: Nanny, beginning: asyncio.Future[None]) -> None:
+    """End a nanny and its worker, one that is still starting too: Dask would leave that behind, to work unseen."""
+    worker = nanny.process
+    beginning.cancel()
+    await asyncio.gather(beginning, return_exceptions=True)
+    with suppress(Exception):  # it knows no way to end what is starting
+        await nanny.close()
+    process = worker and worker.process
+    if process is not None:
+        with suppress(ValueError):  # it has ended meanwhile
+            await process.kill()
+            await process.join()
 
 
 async def _first(*waits: Coroutine[Any, Any, Any]) -> None:

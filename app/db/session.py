@@ -115,7 +115,7 @@ def open_database(url: str | URL, *, busy_timeout: float = BUSY_TIMEOUT) -> Data
     address = checked_address(url)
     options: dict[str, Any] = {"pool_size": POOL_SIZE, "max_overflow": POOL_OVERFLOW}
     if address.get_backend_name() == "sqlite":
-        Path(str(address.database)).parent.mkdir(parents=True, exist_ok=True)
+        Path(str(address.database)).parent.mkdir(parents=True, exist_ok=True, mode=0o700)  # it holds password hashes
         engine = create_engine(address, connect_args={"timeout": busy_timeout}, **options)
         event.listen(engine, "connect", _prepare_sqlite)
         event.listen(engine, "begin", begin_sqlite)

@@ -1,4 +1,4 @@
-"""The compose files: read as the engine reads them where there is one, and looked through part by part everywhere."""
+"""The compose files: read by `docker compose` and `docker-compose` where they are, and looked through everywhere."""
 
 from __future__ import annotations
 
@@ -125,16 +125,34 @@ def test_the_small_form_is_one_process_on_loopback() -> None:
 
 def _engine() -> list[str] | None:
     """The command that reads compose files, where one is installed."""
-    for command in (["docker", "compose"], ["docker-compose"]):
-        if shutil.which(command[0]) and subprocess.run([*command, "version"], capture_output=True).returncode == 0:
-            return command
-    return None
+    docker = shutil.which("docker")
+    if docker and subprocess.run([docker, "compose", "version"], capture_output=True).returncode == 0:
+        return [docker, "compose"]
+    single = shutil.which("docker-compose")
+    return [single] if single else None
 
 
-@pytest.mark.skipif(_engine() is None, reason="no `docker compose` here: the tests above look through the files")
-@pytest.mark.parametrize("path", [HOSTED, SMALL])
+@pytest.mark.parametrize("path", [HOSTED, SMALL], ids=["hosted", "small"])
 def test_an_engine_reads_the_files(path: Path) -> None:
-    command = [*(_engine() or []), "--file", str(path), "--profile", "two", "config", "--quiet"]
-    environment = {**os.environ, "CLEARLINES_PUBLIC_URL": "https://lines.example.org"}
-    found = subprocess.run(command, capture_output=True, text=True, env=environment)
+    command = _engine()
+    if command is None:
+        pytest.skip("neither `docker compose` nor `docker-compose` here: the tests above look through the files")
+
+    def read(public_url: str) -> subprocess.CompletedProcess[str]:
+        environment = {**os.environ, "CLEARLINES_PUBLIC_URL": public_url}
+        options = ["--file", str(path), "--profile", "two", "config"]
+        return subprocess.run([*command, *options], capture_output=True, text=True, env=environment)
+
+    found = read("https://lines.example.org")
     assert found.returncode == 0, found.stderr
+    assert set(yaml.safe_load(found.stdout)["services"]) == set(compose(path)["services"])
+    if path == HOSTED:
+        refused = read("")
+        assert refused.returncode != 0
+        assert "the address of the proxy" in refused.stderr
+
+
+def test_the_two_forms_share_no_files() -> None:
+    """Else the server of one would take the images of the other for forgotten ones, and remove them."""
+    assert not set(compose()["volumes"]) & set(compose(SMALL)["volumes"])
+    assert "VOLUME" not in (ROOT / "Dockerfile").read_text().replace("# no VOLUME", "")
