@@ -30,6 +30,7 @@ LEAST: Mapping[Role, tuple[str, ...]] = {
         "GET /account",
         "PATCH /account",
         "POST /account/password",
+        "DELETE /account/identities/{identity_id}",
         "GET /account/sessions",
         "DELETE /account/sessions/{session_id}",
         "GET /account/tokens",

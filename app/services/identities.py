@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from datetime import datetime
 
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from app.db.models import Identity, User
-from app.errors import Conflict, Forbidden, InvalidInput, NotInvited
+from app.errors import Conflict, Forbidden, InvalidInput, NotFound, NotInvited
 from app.openid.identified import Identified
 from app.services.account_names import checked_account_name, require_free_name
 from app.services.accounts import add_account, checked_email, get_account
@@ -91,9 +91,35 @@ def user_of(session: Session, found: Identified) -> User | None:
     ).one_or_none()
 
 
-def has_identity(session: Session, user_id: int) -> bool:
-    """Whether somebody can sign in with a provider."""
-    return session.scalar(select(Identity.id).where(Identity.user_id == user_id).limit(1)) is not None
+def list_identities(session: Session, user_id: int) -> Sequence[Identity]:
+    """Return by whom somebody is identified, the first that was linked before the others."""
+    return session.scalars(select(Identity).where(Identity.user_id == user_id).order_by(Identity.id)).all()
+
+
+def unlink_identity(session: Session, user_id: int, identity_id: int, now: datetime, actor: Actor) -> None:
+    """Forget a provider's word for somebody, who signs in without it from then on; their sessions go on.
+
+    Args:
+        session: A writing session.
+        user_id: Whose it must be.
+        identity_id: Which.
+        now: When.
+        actor: Who asks.
+
+    Raises:
+        NotFound: When they have no such one, or not any more.
+        Conflict: When they have neither a password nor another one: nobody could sign in to the account any more.
+    """
+    user = get_account(session, user_id, lock=True)
+    linked = list_identities(session, user_id)
+    identity = next((each for each in linked if each.id == identity_id), None)
+    if identity is None:
+        raise NotFound(f"no provider is linked as {identity_id}", hint="it may be unlinked already")
+    if user.password_hash is None and len(linked) == 1:
+        raise Conflict("it is the only way to sign in to this account", hint="choose a password first")
+    session.delete(identity)
+    session.flush()
+    record_account_event(session, "user.unlinked", now, Actor(user.name, actor.address), issuer=identity.issuer)
 
 
 def _link(session: Session, user: User, found: Identified, now: datetime) -> None:

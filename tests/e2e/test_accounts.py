@@ -11,6 +11,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from app.clock import utc_now
+from app.commands.stores import opened_stores
+from app.openid.identified import Identified
+from app.services.accounts import account_named
+from app.services.events import Actor
+from app.services.identities import link_identified
+from app.settings import Settings
+
 PASSWORD = "seven horses at dawn"
 
 
@@ -24,6 +32,7 @@ def hosted(
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("CLEARLINES_PUBLIC_URL", f"http://127.0.0.1:{port}")
         make_admin(data)
+        link_a_provider(data, "ada")
         server = start_server(data, port=port)
     yield server
     server.stop()
@@ -37,6 +46,12 @@ def make_admin(data: Path) -> None:
         text=True,
         check=True,
     )
+
+
+def link_a_provider(data: Path, name: str) -> None:
+    with opened_stores(Settings(data_dir=data)) as (database, _), database.write() as session:
+        found = Identified("https://login.example.org/of", "17", None, None)
+        link_identified(session, account_named(session, name).id, found, utc_now(), Actor(name))
 
 
 @pytest.fixture
@@ -129,6 +144,12 @@ def test_the_last_admin_stays_and_the_state_of_the_server_is_told(open_page: Cal
     page.get_by_label("Role of ada").select_option("reader")
     expect(page.get_by_role("alert").or_(page.locator(".toast--danger"))).to_be_visible()
     expect(page.get_by_label("Role of ada")).to_have_value("admin")
+    page.get_by_role("button", name="ada, admin").click()
+    page.get_by_role("link", name="Account", exact=True).click()
+    other_ways = page.get_by_role("region", name="Other ways in")
+    expect(other_ways).to_contain_text("login.example.org")
+    other_ways.get_by_role("button", name="Unlink").click()
+    expect(other_ways).to_have_count(0)
     page.get_by_role("button", name="ada, admin").click()
     page.get_by_role("link", name="Status").click()
     expect(page.get_by_text("Everything is as it should be.")).to_be_visible()

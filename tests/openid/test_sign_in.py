@@ -17,7 +17,7 @@ from sqlalchemy import make_url, select
 from app.api.application import create_application
 from app.api.own_paths import own_path
 from app.clock import utc_now
-from app.db.models import Identity, User
+from app.db.models import Event, Identity, User
 from app.services import invitations
 from app.services.accounts import add_account
 from app.services.events import Actor
@@ -171,6 +171,38 @@ def test_an_account_is_linked_by_whoever_is_signed_in_to_it(serve: Callable[...,
     taken = enter(client, "bob", "/account", link="true")
     assert taken.status_code == 409
     assert "/account?problem=conflict" in taken.text
+
+
+def test_what_is_linked_is_unlinked_unless_nobody_could_come_in_any_more(serve: Callable[..., TestClient]) -> None:
+    client = serve(openid_role="reader")
+    enter(client, "alice")
+    mine = client.get("/api/me").json()["account"]["id"]
+    (first,) = client.get("/api/account").json()["identities"]
+    sent = {"origin": HOME}
+    refused = client.delete(f"/api/account/identities/{first['id']}", headers=sent)
+    assert refused.status_code == 409
+    assert "only way to sign in" in refused.json()["message"]
+    assert "choose a password" in refused.json()["hint"]
+    enter(client, "bob", "/account", link="true")
+    assert client.delete(f"/api/account/identities/{first['id']}", headers=sent).status_code == 204
+    (second,) = client.get("/api/account").json()["identities"]
+    assert second["id"] != first["id"]
+    assert client.delete(f"/api/account/identities/{second['id']}", headers=sent).status_code == 409
+    assert client.post("/api/account/password", json={"new": "nine brown owls"}, headers=sent).status_code == 204
+    client.cookies.clear()
+    enter(client, "carol")  # somebody else
+    assert client.delete(f"/api/account/identities/{second['id']}", headers=sent).status_code == 404
+    client.cookies.clear()
+    name = {"name": "Alice", "password": "nine brown owls"}
+    assert client.post("/api/session", json=name, headers=sent).status_code == 200
+    assert client.delete(f"/api/account/identities/{second['id']}", headers=sent).status_code == 204
+    assert client.get("/api/account").json()["identities"] == []
+    client.cookies.clear()
+    enter(client, "bob")  # is somebody new now
+    assert client.get("/api/me").json()["account"]["id"] != mine
+    with database(client).read() as session:
+        kinds = session.scalars(select(Event.kind).where(Event.kind == "user.unlinked")).all()
+    assert len(kinds) == 2
 
 
 @pytest.mark.parametrize(

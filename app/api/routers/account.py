@@ -13,6 +13,7 @@ from app.api.problems import answers
 from app.api.schemas.accounts import (
     AccountAnswer,
     AccountChange,
+    IdentityAnswer,
     NewOwnToken,
     OwnToken,
     OwnTokenGiven,
@@ -26,7 +27,7 @@ from app.db.models import User
 from app.errors import Conflict, InvalidInput, Unauthenticated
 from app.services import accounts, web_sessions
 from app.services.account_tokens import end_token, list_own_tokens, make_own_token
-from app.services.identities import has_identity
+from app.services.identities import list_identities, unlink_identity
 from app.services.passwords import checked_password
 
 router = APIRouter(prefix="/account", tags=["account"], responses=answers(404))
@@ -73,6 +74,14 @@ def change_password(
             raise Conflict("the password was changed at the same moment", hint="reload and try again")
         kept = viewer.web_session_id
         accounts.change_password(session, user, password_hash, now, actor, kind="user.password_changed", keep=kept)
+    return Response(status_code=status.HTTP_204_NO_CONTENT)
+
+
+@router.delete("/identities/{identity_id}", status_code=status.HTTP_204_NO_CONTENT, responses=answers(409))
+def unlink(server: ServerDep, actor: ActorDep, now: Now, user_id: SignedIn, identity_id: RowId) -> Response:
+    """Unlink a provider, with which you don't sign in any more. The only way to sign in stays."""
+    with server.database.write() as session:
+        unlink_identity(session, user_id, identity_id, now, actor)
     return Response(status_code=status.HTTP_204_NO_CONTENT)
 
 
@@ -135,7 +144,8 @@ def revoke_token(server: ServerDep, actor: ActorDep, now: Now, user_id: AccountI
 def _account(session: Session, user_id: int) -> AccountAnswer:
     user = accounts.get_account(session, user_id)
     own = OwnAccount.model_validate(user).model_dump()
-    return AccountAnswer(**own, created_at=user.created_at, has_identity=has_identity(session, user_id))
+    identities = [IdentityAnswer.model_validate(identity) for identity in list_identities(session, user_id)]
+    return AccountAnswer(**own, created_at=user.created_at, identities=identities)
 
 
 def _require_right(server: Server, user: User, stored: str, given: PasswordChange, address: str) -> None:

@@ -14,11 +14,19 @@ Email = Annotated[str, StringConstraints(max_length=320)]
 Days = Annotated[float, Field(gt=0, le=36_500, description="Good for so many days.")]
 
 
+class IdentityAnswer(Answer):
+    """A provider that one can sign in with."""
+
+    id: int
+    issuer: str = Field(description="Address of the provider.")
+    created_at: datetime = Field(description="When it was linked.")
+
+
 class AccountAnswer(OwnAccount):
     """The account of whoever asks."""
 
     created_at: datetime
-    has_identity: bool = Field(description="Whether a provider is linked to it, that one can sign in with.")
+    identities: list[IdentityAnswer] = Field(description="Providers that are linked to it, the first one first.")
 
 
 class AccountChange(Given):

@@ -17,6 +17,8 @@ export const changeAccount = (changes: { email: string }) =>
   unwrap(client.PATCH("/api/account", { body: changes }));
 export const changePassword = (current: string | null, wanted: string) =>
   unwrap(client.POST("/api/account/password", { body: { current, new: wanted } }));
+export const unlinkIdentity = (identity_id: number) =>
+  unwrap(client.DELETE("/api/account/identities/{identity_id}", { params: { path: { identity_id } } }));
 export const listSessions = () => unwrap(client.GET("/api/account/sessions"));
 export const endSession = (session_id: number) =>
   unwrap(client.DELETE("/api/account/sessions/{session_id}", { params: { path: { session_id } } }));

@@ -212,7 +212,7 @@ def fill(world: World) -> None:
         "source": ["a"],
         "limit": [1],
         "size": [640],
-        **{name: [1] for name in ("user_id", "session_id", "token_id", "invitation_id")},
+        **{name: [1] for name in ("user_id", "session_id", "token_id", "invitation_id", "identity_id")},
     }
 
 
