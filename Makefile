@@ -8,7 +8,7 @@ KERNELS := $(wildcard app/vision/native/*.[ch])
 FRONTEND := $(shell find frontend/src frontend/public frontend/index.html frontend/*.json frontend/*.ts -type f 2>/dev/null)
 
 .DEFAULT_GOAL := setup
-.PHONY: setup demo test lint format kernels sanitize bench screenshots openapi lock clean
+.PHONY: setup demo test suite lint checks types format kernels sanitize bench screenshots openapi lock clean
 
 setup: $(STAMP)
 
@@ -22,25 +22,34 @@ $(STAMP): pyproject.toml requirements.lock build_hook.py build_frontend.py build
 demo: setup
 	$(BIN)/clearlines demo $(ARGS)
 
-# A thread per process, there are as many as cores. Byte code is kept: else each server would compile all it imports.
+# A thread per process: there are enough of them. Byte code is kept: else each server would compile all it imports.
 test: export OMP_NUM_THREADS = 1
 test: export OPENBLAS_NUM_THREADS = 1
 test: export OPENCV_FOR_THREADS_NUM = 1
 test: export PYTHONDONTWRITEBYTECODE =
-test: lint
+
+# Types take a minute of one processor: they are checked beside the tests, which often wait.
+test: checks
+	$(MAKE) --no-print-directory -j 2 suite types
+
+suite: setup
 	$(NODE) vitest run
 	$(BIN)/python tools/browser.py
-	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
+	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder $(ARGS)
 
-lint: setup
+lint: checks types
+
+types: setup
+	nice -n 15 $(NODE) pyright --project ../pyproject.toml --warnings
+	nice -n 15 $(NODE) tsc --noEmit
+
+checks: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(NODE) pyright --project ../pyproject.toml --warnings
 	$(BIN)/lint-imports
 	$(BIN)/clang-format --dry-run --Werror $(KERNELS)
 	$(BIN)/python tools/kernels.py warnings
 	$(NODE) biome check .
-	$(NODE) tsc --noEmit
 
 format: setup
 	$(BIN)/ruff check --fix-only .

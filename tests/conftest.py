@@ -10,17 +10,11 @@ each test, the rows of the PostgreSQL database are deleted.
 
 from __future__ import annotations
 
-import json
+import gc
 import os
 import shutil
 import signal
-import socket
-import subprocess
-import sys
 import tempfile
-import time
-import urllib.request
-import uuid
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from datetime import UTC, datetime
@@ -34,14 +28,22 @@ from sqlalchemy import event, make_url
 
 from app.db.models import Base
 from app.db.session import Database, open_database, upgrade
+from tests.object_server import ObjectServer
+from tests.shared_statements import shared_statements
 
 # a machine that does other things meanwhile must not fail a property
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
 
+gc.disable()  # until all tests are collected: what modules make stays
+
 FIRST = ("e2e", "api", "services", "synthesis", "packaging", "cluster", "faults", "commands", "jobs", "storage")
 """Folders whose files take long, in the order they begin: none of them may be what is waited for at the end, and those
 that start many processes come when the browser tests beside them are done."""
+
+NICENESS = 10
+"""By how much all other processes step back behind that of the browser tests: a page has 5 s to show something."""
+STOOD_BACK = pytest.StashKey[bool]()
 
 EMPTY = """
 DO $$
@@ -61,14 +63,38 @@ END $$
 """Ends whoever is left, deletes all rows but those of the migrations (foreign keys asleep), and counts from 1 again."""
 
 
+def pytest_collection_finish() -> None:
+    """Collect garbage again, but never look for it in what the modules made."""
+    gc.freeze()
+    gc.enable()
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put the folders named FIRST in front; within a folder the order stays."""
 
     def place(item: pytest.Item) -> int:
-        folder = item.path.parent.relative_to(item.config.rootpath / "tests").parts[:1]
-        return FIRST.index(folder[0]) if folder and folder[0] in FIRST else len(FIRST)
+        folder = first_folder(item)
+        return FIRST.index(folder) if folder in FIRST else len(FIRST)
 
     items.sort(key=place)
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Step back, unless this process begins with the browser tests, where several run side by side.
+
+    There are more of them than cores: tests that wait for other processes leave the cores to the rest.
+    """
+    alone = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")) == 1
+    if alone or not hasattr(os, "nice") or STOOD_BACK in item.config.stash:
+        return
+    item.config.stash[STOOD_BACK] = first_folder(item) != "e2e"
+    if item.config.stash[STOOD_BACK]:
+        os.nice(NICENESS)
+
+
+def first_folder(item: pytest.Item) -> str | None:
+    """Return the folder in ``tests`` that a test is in."""
+    return next(iter(item.path.parent.relative_to(item.config.rootpath / "tests").parts), None)
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -87,6 +113,13 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             return "tests/e2e" if file.startswith("tests/e2e/") else file
 
     return FileScheduling(config, log)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def statements_compiled_once() -> Iterator[None]:
+    """Let no test pay for SQL that another one had compiled."""
+    with shared_statements():
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -144,18 +177,27 @@ def empty_postgres(postgres_server: str) -> Iterator[Callable[[], str]]:
         upgrade(database)
         database.close()
 
+    def found_tables() -> set[str]:
+        rows = connection.execute("SELECT tablename FROM pg_tables WHERE schemaname = 'public'").fetchall()
+        return {table for (table,) in rows}
+
     def empty() -> str:
-        with psycopg.connect(address, autocommit=True) as connection:
-            tables = connection.execute("SELECT tablename FROM pg_tables WHERE schemaname = 'public'").fetchall()
-            whole = {table for (table,) in tables} == {*Base.metadata.tables, "alembic_version"}
-            if whole:
-                connection.execute(EMPTY)
-        if not whole:  # a test of the migrations left it so
+        nonlocal connection
+        try:
+            tables = found_tables()
+        except psycopg.OperationalError:  # a test ended it
+            connection = psycopg.connect(address, autocommit=True)
+            tables = found_tables()
+        if tables == {*Base.metadata.tables, "alembic_version"}:
+            connection.execute(EMPTY)
+        else:  # a test of the migrations left it so
             make()
         return address
 
     make()
+    connection = psycopg.connect(address, autocommit=True)  # one for all tests: it knows the tables from the first one
     yield empty
+    connection.close()
     execute_alone(postgres_server, f"DROP DATABASE {name} WITH (FORCE)")
 
 
@@ -185,77 +227,6 @@ def sqlite_database(sqlite_template: Path, tmp_path: Path) -> Iterator[Database]
     database = open_database(f"sqlite:///{path}")
     yield database
     database.close()
-
-
-OBJECT_SERVER = "from moto.server import main; main()"
-UNASKED = ("CreateUser", "CreateAccessKey", "PutUserPolicy")
-"""Actions of the identity service that need no credentials yet: they make some."""
-
-
-class ObjectServer:
-    """A process of moto's server, which forgets everything when it ends.
-
-    Attributes:
-        address: Its URL, the same after each start.
-        options: Of a file system for it: the address and good credentials.
-    """
-
-    def __init__(self, log: Path) -> None:
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            self.port = free.getsockname()[1]
-        self.address = f"http://127.0.0.1:{self.port}"
-        self.options: dict[str, str] = {}
-        self._log = log
-
-    def start(self) -> None:
-        environment = {**os.environ, "INITIAL_NO_AUTH_ACTION_COUNT": str(len(UNASKED))}
-        command = [sys.executable, "-c", OBJECT_SERVER, "-H", "127.0.0.1", "-p", str(self.port)]
-        with self._log.open("ab") as log:
-            self._process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
-        deadline = time.monotonic() + 60
-        while not self._listens():
-            assert self._process.poll() is None, self._log.read_text()
-            assert time.monotonic() < deadline, "moto's server didn't start"
-            time.sleep(0.02)
-        self._make_credentials()
-
-    def _listens(self) -> bool:
-        with socket.socket() as asking:
-            return asking.connect_ex(("127.0.0.1", self.port)) == 0
-
-    def _make_credentials(self) -> None:
-        everything = {"Version": "2012-10-17", "Statement": [{"Effect": "Allow", "Action": "s3:*", "Resource": "*"}]}
-        urllib.request.urlopen(f"{self.address}/moto-api/seed?a=1", data=b"").close()  # the same ones after each start
-        identities = self._client("iam", "nobody", "nothing")
-        identities.create_user(UserName="clearlines")
-        made = identities.create_access_key(UserName="clearlines")["AccessKey"]
-        key, secret = made["AccessKeyId"], made["SecretAccessKey"]
-        identities.put_user_policy(UserName="clearlines", PolicyName="blobs", PolicyDocument=json.dumps(everything))
-        identities.close()
-        self.options = {"endpoint_url": self.address, "key": key, "secret": secret}
-        self._objects = self._client("s3", key, secret)
-
-    def _client(self, service: str, key: str, secret: str) -> Any:
-        import boto3  # takes long
-
-        given = {"aws_access_key_id": key, "aws_secret_access_key": secret, "region_name": "us-east-1"}
-        return boto3.client(service, endpoint_url=self.address, **given)
-
-    def make_bucket(self, name: str | None = None) -> str:
-        """Make an empty bucket and return its name."""
-        bucket = name or f"blobs-{uuid.uuid4().hex[:12]}"
-        self._objects.create_bucket(Bucket=bucket)
-        return bucket
-
-    def remove_bucket(self, name: str) -> None:
-        """Remove a bucket that is empty."""
-        self._objects.delete_bucket(Bucket=name)
-
-    def send(self, number: signal.Signals) -> None:
-        self._process.send_signal(number)
-        if number == signal.SIGKILL:
-            self._process.wait()
 
 
 @pytest.fixture(scope="session")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
+from functools import cache
 from pathlib import Path
 
 from fastapi import APIRouter, FastAPI, Request
@@ -180,18 +181,25 @@ def create_application(settings: Settings) -> FastAPI:
         openapi_url="/api/openapi.json",
         docs_url=None,
         redoc_url=None,
-        responses=answers(*FROM_ANY_ROUTE),
     )
     application.state.stopping = stopping
     install_problem_handlers(application)
-    for router in ROUTERS:
-        application.include_router(router.router, prefix="/api")
-    application.include_router(_unknown_addresses(list(application.routes)))
+    application.routes.extend(_api_routes())
+    application.include_router(_unknown_addresses(tuple(application.routes)))
     has_pages = (STATIC / "index.html").is_file()
     if has_pages:
         application.frontend("/", directory=str(STATIC))
     add_layers(application, settings, metrics, STATIC if has_pages else None)
     return application
+
+
+@cache
+def _api_routes() -> Sequence[BaseRoute]:
+    """Return the routes of the API: they know no settings, and building them takes longer than all else here."""
+    router = APIRouter(responses=answers(*FROM_ANY_ROUTE))
+    for each in ROUTERS:
+        router.include_router(each.router, prefix="/api")
+    return tuple(router.routes)
 
 
 def _unknown_addresses(known: Sequence[BaseRoute]) -> APIRouter:

@@ -14,7 +14,7 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binom
+from scipy.special import bdtrc
 
 from app.calibration.corrected_lines import CorrectedLines
 
@@ -143,7 +143,8 @@ def _meaningful(lines: CorrectedLines, agreeing: NDArray[np.bool_], open_: NDArr
         return False
     chance = float(np.mean(2 * REACH * _sigma(lines)[open_] / np.pi))
     tests = number * (number - 1) / 2
-    return bool(tests * binom.sf(count - 3, number - 2, min(chance, 1.0)) < FALSE_ALARMS)
+    more = bdtrc(count - 3, number - 2, min(chance, 1.0))  # P(X > count - 3) of a binomial X
+    return bool(tests * more < FALSE_ALARMS)
 
 
 def _point(vector: Array, lines: CorrectedLines, agreeing: NDArray[np.bool_]) -> VanishingPoint:

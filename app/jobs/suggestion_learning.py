@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binomtest
 
 from app.jobs.tasks import errors_that_travel
 from app.review.calibration import CalibrationReport
@@ -64,6 +63,8 @@ def train_task(features: NDArray[np.float32], kept: NDArray[np.bool_], image_ind
 
 def _calibration(report: CalibrationReport) -> dict[str, Any]:
     """Return a report with the 95 % interval of each bin's share (Wilson, JASA 1927)."""
+    from scipy.stats import binomtest  # takes long, and the server needs but the name of the task
+
     bins = []
     for each in report.bins:
         kept = round((each.observed or 0.0) * each.count)
