@@ -13,20 +13,19 @@ Time is one second for each action.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 from shared.reporting import Target, argument_parser, finish, show_table
+from shared.review_collection import Collection, held_out
 from shared.review_images import ReviewImage, synthetic_images, york_images
-from shared.review_replay import Effort, keep_by_clicks, keep_then_reject, with_suggestions
+from shared.review_replay import FINISH, Effort, by_turning, keep_by_clicks, keep_then_reject, with_suggestions
 
 from app.review.calibration import CalibrationReport, calibration_report
-from app.review.prior import prior_model
+from app.review.features import FEATURES
 from app.review.thresholds import CHEAPEST, Thresholds, thresholds_for
-from app.review.training import TrainingSet, train
 
 LEARNT_ON = (0, 1, 2, 5, 10, 20, 40)
 """Images labelled before, for the curve."""
@@ -48,29 +47,6 @@ TARGETS = tuple(
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class Collection:
-    """Images that are labelled by the same idea of what is a line."""
-
-    name: str
-    images: Sequence[ReviewImage]
-
-    @property
-    def candidates(self) -> int:
-        """Candidates in all."""
-        return sum(len(image.kept) for image in self.images)
-
-    def examples(self, chosen: NDArray[np.int64]) -> TrainingSet:
-        """Return the candidates of the chosen images, with their true verdicts."""
-        images = [self.images[index] for index in chosen]
-        counts = [len(image.kept) for image in images]
-        return TrainingSet(
-            np.concatenate([image.features for image in images]),
-            np.concatenate([image.kept for image in images]),
-            np.repeat(np.arange(len(images)), counts),
-        )
-
-
 class Total(NamedTuple):
     """Efforts of all images together."""
 
@@ -78,40 +54,44 @@ class Total(NamedTuple):
     wrong: int
     strokes: int
     families: int
+    holds: int
 
 
 def total(efforts: Sequence[Effort]) -> Total:
     return Total(*(sum(values) for values in zip(*efforts, strict=True)))
 
 
-def held_out(collection: Collection, folds: int, known: int | None = None) -> list[Array]:
-    """Return the probabilities of each image's candidates by models that learnt on other images alone.
-
-    Args:
-        collection: The images.
-        folds: How many models are trained.
-        known: How many images each learns from; all others if left out.
-    """
-    order = np.random.default_rng(0).permutation(len(collection.images))
-    found: dict[int, Array] = {}
-    for fold in range(folds):
-        test, rest = order[fold::folds], np.setdiff1d(order, order[fold::folds])
-        learnt = np.random.default_rng([1, fold]).permutation(rest)[:known]
-        prior = prior_model()
-        model = train(collection.examples(learnt), seed=0, prior=prior).model if len(learnt) else prior
-        found |= {int(index): model.probability(collection.images[index].features) for index in test}
-    return [found[index] for index in range(len(collection.images))]
-
-
 def suggested(
-    collection: Collection, probabilities: Sequence[Array], thresholds: Thresholds, without: Sequence[Effort]
+    collection: Collection,
+    probabilities: Sequence[Array],
+    thresholds: Thresholds,
+    without: Sequence[Effort],
+    *,
+    turning: bool = True,
 ) -> Total:
     return total(
         [
-            with_suggestions(image.page, probability, *thresholds, each)
+            with_suggestions(image.page, probability, *thresholds, each, turning=turning)
             for image, probability, each in zip(collection.images, probabilities, without, strict=True)
         ]
     )
+
+
+def turning(
+    collection: Collection, probabilities: Sequence[Array], orders: Sequence[Array], *, keys: int = FINISH
+) -> Total:
+    return total(
+        [
+            by_turning(image.page, probability, order, keys=keys)
+            for image, probability, order in zip(collection.images, probabilities, orders, strict=True)
+        ]
+    )
+
+
+def ranks_of_score(image: ReviewImage) -> Array:
+    """Return where each candidate stands among the image's by the pipeline's score, ``(S,)`` in [0, 1)."""
+    scores = image.features[:, FEATURES.index("score")]
+    return np.argsort(np.argsort(scores, kind="stable"), kind="stable") / len(scores)
 
 
 def measure(collection: Collection) -> dict[str, float | None]:
@@ -123,7 +103,7 @@ def measure(collection: Collection) -> dict[str, float | None]:
     everything, kept = np.concatenate(probabilities), np.concatenate(truths)
     report = calibration_report(everything, kept, np.repeat(np.arange(images), [len(truth) for truth in truths]))
 
-    by_key = Total(count, 0, 0, 0)
+    by_key = Total(count + images * FINISH, 0, 0, 0, 0)
     without = [keep_then_reject(image.page) for image in collection.images]
     by_keeping = total(without)
     ways = {
@@ -131,11 +111,23 @@ def measure(collection: Collection) -> dict[str, float | None]:
         "b: keep, reject the rest; clicks alone": total([keep_by_clicks(image.page) for image in collection.images]),
         "b: the same with strokes and families": by_keeping,
         "c: with suggestions": suggested(collection, probabilities, CHEAPEST, without),
+        "c: without the turn brush": suggested(collection, probabilities, CHEAPEST, without, turning=False),
     }
     for rate in ERROR_RATES:
         ways[f"c: {rate:.0%} wrong among those accepted"] = suggested(
             collection, probabilities, thresholds_for(everything, rate), without
         )
+    random = np.random.default_rng(2)
+    ways["c: by the turn brush alone"] = turning(collection, probabilities, probabilities)
+    ways["control: (c), the turn brush by random numbers"] = turning(
+        collection, probabilities, [random.random(len(truth)) for truth in truths]
+    )
+    ways["control: (b), all rejected, a turn brush by score"] = turning(
+        collection,
+        [np.zeros(len(truth)) for truth in truths],
+        [ranks_of_score(image) for image in collection.images],
+        keys=1 + FINISH,  # the rest is rejected before the image ends
+    )
     ways["c: with a perfect model"] = suggested(
         collection, [truth.astype(np.float64) for truth in truths], CHEAPEST, without
     )
@@ -164,10 +156,15 @@ def measure(collection: Collection) -> dict[str, float | None]:
     return {
         f"{name}_candidates": float(count),
         f"{name}_labels": float(labels),
-        f"{name}_one_key": 1.0,
+        f"{name}_one_key": by_key.actions / count,
         f"{name}_keep_then_reject_by_clicks": ways["b: keep, reject the rest; clicks alone"].actions / count,
         f"{name}_keep_then_reject": by_keeping.actions / count,
         f"{name}_with_suggestions": with_them.actions / count,
+        f"{name}_without_turn_brush": ways["c: without the turn brush"].actions / count,
+        f"{name}_control_random_turns": ways["control: (c), the turn brush by random numbers"].actions / count,
+        f"{name}_control_turns_by_score": ways["control: (b), all rejected, a turn brush by score"].actions / count,
+        f"{name}_over_keep_then_reject_by_clicks": with_them.actions
+        / ways["b: keep, reject the rest; clicks alone"].actions,
         f"{name}_with_suggestions_per_label": with_them.actions / labels,
         f"{name}_over_keep_then_reject": with_them.actions / by_keeping.actions,
         f"{name}_with_perfect_model": ways["c: with a perfect model"].actions / count,

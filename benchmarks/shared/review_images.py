@@ -9,9 +9,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from shared.review_replay import KEEP, REJECT, Page
-from shared.review_strokes import strokes
-from shared.york import read_gray
 
 from app.evaluation.matching import match_segments
 from app.formats.inert_npy import read_label_npy
@@ -21,6 +18,10 @@ from app.synthesis import synthesize_scene
 from app.vision import DetectionParameters, Segments, detect_for_prelabel, estimate_distortion, judge_straightness
 from app.vision.division import Division
 from app.vision.sampson import sampson_residuals
+
+from .review_replay import KEEP, REJECT, Page
+from .review_strokes import strokes
+from .york import read_gray
 
 SIZES = ((1280, 720), (960, 640), (1024, 768), (800, 600))
 """Of the synthetic scenes, taking turns."""
@@ -86,7 +87,7 @@ def review_image(name: str, gray: NDArray[np.uint8], labels: Segments) -> Review
     kept = np.zeros(len(candidates), bool)
     kept[match_segments(candidates, labels).row] = True
     page = Page(
-        strokes(candidates, size).astype(np.float32),
+        strokes(candidates, size),
         np.where(kept, KEEP, REJECT).astype(np.int64),
         families(candidates, size),
     )

@@ -25,7 +25,7 @@ WIDTH, HEIGHT = 640, 480
 COLUMNS = (60, 140, 220, 300, 308, 400, 480, 560)
 LENGTHS = (280, 280, 280, 280, 280, 280, 60, 40)
 MIDDLE = 240
-IMAGES = ("brush", "lasso", "family", "filter", "focus", "reason", "touch", "frame-0", "frame-1")
+IMAGES = ("brush", "turn", "lasso", "family", "filter", "focus", "reason", "touch", "frame-0", "frame-1")
 
 
 @pytest.fixture(scope="module")
@@ -159,6 +159,56 @@ def test_a_stroke_judges_what_it_touches_and_a_click_the_nearest(
     page.keyboard.up("w")
     drag(page, (350, 300), (600, 310))
     judged(page, 4)
+
+
+def test_the_turn_brush_turns_what_is_as_likely_between_two_wrong_lines(
+    page: Page, label_server: Any, images: dict[str, int]
+) -> None:
+    image = images["turn"]
+    found = label_server.ask(f"/images/{image}/suggestions")["segments"]
+    of = {segment["id"]: segment["probability"] for segment in found}
+    probability = [of[segment["id"]] for segment in segments(label_server, image)]
+    suggested = ["keep" if value >= 0.5 else "reject" for value in probability]
+
+    def turned(first: int, last: int) -> list[int]:
+        low, high = sorted((probability[first], probability[last]))
+        return [line for line in range(first, last + 1) if low <= probability[line] <= high]
+
+    def after(lines: list[int]) -> list[str]:
+        other = {"keep": "reject", "reject": "keep"}
+        return [other[verdict] if line in lines else verdict for line, verdict in enumerate(suggested)]
+
+    # the first two of which something between turns too, and something stays
+    first, last = next(
+        (first, last)
+        for first in range(5)
+        for last in range(first + 3, 6)
+        if 2 < len(turned(first, last)) <= last - first
+    )
+    open_image(page, label_server, image)
+    panel = page.get_by_role("region", name="Suggestions")
+    panel.get_by_label("Keep from").fill("0.5")
+    panel.get_by_label("Reject below").fill("0.5")
+    page.keyboard.press("s")
+    judged(page, 8)
+    page.keyboard.down("t")
+    drag(page, (COLUMNS[first], 200), (COLUMNS[last], 220))
+    expect(page.get_by_text(f"{len(turned(first, last))} candidates turned")).to_be_visible()
+    stored(label_server, image, *after(turned(first, last)))
+    page.mouse.click(*place(page, COLUMNS[first], 300))
+    page.keyboard.up("t")
+    stored(label_server, image, *after(turned(first, last)[1:]))
+    for _ in range(2):
+        page.keyboard.press("z")
+    stored(label_server, image, *suggested)
+    # Without a key to hold, by the tool bar; it stays in hand on another image.
+    button = page.get_by_role("button", name="Turn brush")
+    button.click()
+    page.mouse.click(*place(page, COLUMNS[7], 240))
+    stored(label_server, image, *after([7]))
+    page.keyboard.press("p")
+    page.wait_for_url(lambda url: f"/images/{image}" not in url)
+    expect(button).to_have_attribute("aria-pressed", "true")
 
 
 def test_a_lasso_selects_for_one_verdict(page: Page, label_server: Any, images: dict[str, int]) -> None:

@@ -197,3 +197,23 @@ def test_the_page_tells_how_good_they_are_once_something_was_learnt(page: Page, 
     expect(panel).to_contain_text("learnt from 48 decisions on 2 images")
     panel.get_by_role("link", name="How good it is").click()
     expect(page.get_by_role("heading", name="Suggestions", exact=True)).to_be_visible()
+
+
+def test_one_key_accepts_what_was_left_as_suggested_and_finishes_the_image(page: Page, server: Any) -> None:
+    [_, _, image_id] = images(server)
+    open_image(page, server, image_id)
+    probability = suggested(server, image_id)
+    page.get_by_role("application").focus()
+    page.keyboard.press("Tab")
+    expect(page).to_have_url(re.compile(r"segment=\d+$"))
+    mended = int(page.url.rsplit("=", 1)[1])
+    page.keyboard.press("x" if probability[mended] >= 0.5 else "k")
+    expect(progress(page)).to_have_text(f"1 of {LINES} judged")
+    page.keyboard.press("Shift+Enter")
+    expect(page).not_to_have_url(re.compile(rf"/images/{image_id}\b"))
+    assert server.ask(f"/images/{image_id}")["status"] == "done"
+    decisions = {each["segment_id"]: each for each in server.ask(f"/images/{image_id}/decisions")["decisions"]}
+    assert len(decisions) == LINES
+    for segment_id, decision in decisions.items():
+        as_suggested = (decision["verdict"] == "keep") == (probability[segment_id] >= 0.5)
+        assert (decision["kind"], as_suggested) == (("judge", False) if segment_id == mended else ("accept", True))

@@ -37,17 +37,17 @@ export function candidateLook(state: LabelState, touched: Touched, palette: Pale
       STYLE_ORDER.map((name) => styles[name]),
     ),
     style: (index) => {
-      const wanted = touched.indices.has(index) ? touched.verdict : null;
+      const wanted = touched.get(index) ?? null;
       const suggested = wanted === null ? suggestedAt(state.suggesting, index) : null;
       const verdict = wanted ?? verdictAt(state, index);
       const drawn = verdict === "keep" && state.candidates[index]?.origin === "manual";
       const name = drawn ? "drawn" : styleName(verdict, isBent(state, index), suggested);
-      const marked = touched.indices.has(index) || (several && selection.has(index));
+      const marked = touched.has(index) || (several && selection.has(index));
       if (marked) return table.marked[name];
       return table[focus === "dim" && selection.size > 0 && !selection.has(index) ? "dimmed" : "plain"][name];
     },
     visible: (index) => {
-      if (selection.has(index) || touched.indices.has(index)) return true;
+      if (selection.has(index) || touched.has(index)) return true;
       return isShown(state, index) && !(focus === "solo" && selection.size > 0);
     },
   };

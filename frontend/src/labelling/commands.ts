@@ -34,6 +34,8 @@ export interface LabelActions
     DrawingActions,
     SuggestionActions,
     PagesActions {
+  /** Accepts the suggestions on the screen where nothing is decided yet; then the image is done. */
+  finishAsSuggested(): void;
   discard(): void;
   toggleStages(): void;
   stepJoin(direction: 1 | -1): void;
@@ -71,6 +73,14 @@ export const COMMANDS: readonly Command<LabelActions>[] = [
   ...TOOL_COMMANDS,
   ...DRAWING_COMMANDS,
   FINISH,
+  {
+    id: "finish-as-suggested",
+    keys: ["Shift+Enter"],
+    label: "The rest as suggested, and done",
+    group: "Image",
+    onImageOnly: true,
+    run: (a) => a.finishAsSuggested(),
+  },
   {
     id: "discard",
     keys: ["D"],

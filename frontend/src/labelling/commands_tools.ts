@@ -23,6 +23,7 @@ export interface ToolActions {
 export const HELD_TOOLS: Readonly<Partial<Record<ToolName, string>>> = {
   "keep-brush": "W",
   "reject-brush": "E",
+  "turn-brush": "T",
   lasso: "Q",
 };
 
@@ -42,6 +43,13 @@ export const TOOL_COMMANDS: readonly Command<ToolActions>[] = [
     label: "Hold and drag: reject what you touch",
     group: "Many",
     run: held("reject-brush"),
+  },
+  {
+    id: "turn-brush",
+    keys: ["T"],
+    label: "Hold and drag from wrong to wrong: turn what is as likely",
+    group: "Many",
+    run: held("turn-brush"),
   },
   {
     id: "lasso",

@@ -150,7 +150,7 @@ describe("the look of candidates", () => {
   const look = () => candidateLook(store.getState(), NOTHING_TOUCHED, "standard");
 
   it("shows what a tool would do before it is done", () => {
-    const touched = { indices: new Set([1]), verdict: "keep" } as const;
+    const touched = new Map([[1, "keep"]] as const);
     const shown = candidateLook(store.getState(), touched, "standard").style(1);
     store.judge([1], "keep");
     expect(shown).toMatchObject({ colour: look().style(1).colour });

@@ -1,5 +1,7 @@
 /** What a newcomer is told of, one thing at a time, until it has been used or waved away. */
 
+import type { ToolName } from "../tools/tool_box";
+
 export interface Hint {
   readonly id: HintId;
   /** Key caps. */
@@ -15,6 +17,7 @@ export type HintId =
   | "brush"
   | "rest"
   | "suggestions"
+  | "turn"
   | "trace"
   | "lasso"
   | "family"
@@ -28,6 +31,12 @@ export const HINTS: readonly Hint[] = [
   { id: "brush", keys: ["E"], text: "held while you drag rejects all that you touch; W keeps it", after: 6 },
   { id: "rest", keys: ["R"], text: "rejects all the rest once the straight lines are kept", after: 12 },
   { id: "suggestions", keys: ["S"], text: "accepts the suggestions on the screen", after: 16 },
+  {
+    id: "turn",
+    keys: ["T"],
+    text: "held while you drag from one wrong line to another turns both, and what is as likely between",
+    after: 18,
+  },
   { id: "trace", keys: ["L"], text: "and two clicks add a line that nobody found", after: 20 },
   {
     id: "lasso",
@@ -40,6 +49,15 @@ export const HINTS: readonly Hint[] = [
   { id: "focus", keys: ["Shift", "H"], text: "makes the other lines faint", after: 50 },
   { id: "take-over", keys: ["Y"], text: "takes over verdicts of the frames beside", after: 60 },
 ];
+
+/** What taking a tool in hand shows to be known. */
+export const HINT_OF_TOOL: Readonly<Record<ToolName, HintId>> = {
+  "keep-brush": "brush",
+  "reject-brush": "brush",
+  "turn-brush": "turn",
+  lasso: "lasso",
+  trace: "trace",
+};
 
 /** What a person has done so far, on whatever image. */
 export interface Experience {

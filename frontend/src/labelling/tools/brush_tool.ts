@@ -1,4 +1,4 @@
-/** Strokes that give all they touch one verdict, as one group; a click gives it to the nearest line. */
+/** Strokes that judge what they touch, as one group; a click judges the nearest line. */
 
 import type { Verdict } from "../../api/types";
 import type { Point } from "../../canvas/geometry";
@@ -11,13 +11,24 @@ import { isDrag, type LineFinder } from "./tool_view";
 /** How far from the stroke's middle a line is still touched (screen px). */
 export const BRUSH_RADIUS = 8;
 
+/** A stroke under way or done; candidates by index. */
+export interface Stroke {
+  readonly touched: ReadonlySet<number>;
+  /** The line that it begins on; null: beside the lines. */
+  readonly first: number | null;
+  /** The line that it ends on, as far as it has come. */
+  readonly last: number | null;
+}
+
+export type Verdicts = ReadonlyMap<number, Verdict>;
+
 interface BrushParts {
-  readonly verdict: Verdict;
   readonly colour: () => string;
   readonly view: () => LineFinder | null;
   readonly preview: Preview;
-  /** Gives the touched lines the verdict. */
-  readonly judge: (indices: readonly number[]) => void;
+  /** The verdicts that a stroke gives. */
+  readonly effect: (stroke: Stroke) => Verdicts;
+  readonly judge: (verdicts: Verdicts) => void;
 }
 
 export class BrushTool implements PointerTool {
@@ -30,6 +41,7 @@ export class BrushTool implements PointerTool {
   private pressed: Point | null = null;
   private dragged = false;
   private touched = new Set<number>();
+  private first: number | null = null;
 
   constructor(parts: BrushParts) {
     this.parts = parts;
@@ -40,8 +52,9 @@ export class BrushTool implements PointerTool {
     this.pressed = screen;
     this.dragged = false;
     this.stroke = [at];
-    this.touched = new Set(this.nearest(at));
-    this.show();
+    this.first = this.nearest(at);
+    this.touched = only(this.first);
+    this.show(at);
   }
 
   move(at: Point, screen: Point): void {
@@ -54,14 +67,14 @@ export class BrushTool implements PointerTool {
     this.stroke.push(at);
     for (const index of this.parts.view()?.linesAlong(before, at, BRUSH_RADIUS) ?? [])
       this.touched.add(index);
-    this.show();
+    this.show(at);
   }
 
   up(at: Point, screen: Point): void {
     this.move(at, screen);
-    const touched = [...this.touched];
+    const verdicts = this.effect(at);
     this.rest(at);
-    if (touched.length > 0) this.parts.judge(touched);
+    if (verdicts.size > 0) this.parts.judge(verdicts);
   }
 
   cancel(): void {
@@ -71,7 +84,10 @@ export class BrushTool implements PointerTool {
   hover(at: Point | null): void {
     this.place = at;
     if (at === null) this.parts.preview.clear();
-    else this.parts.preview.show(this.nearest(at), this.parts.verdict);
+    else {
+      const line = this.nearest(at);
+      this.parts.preview.show(this.parts.effect({ touched: only(line), first: line, last: line }));
+    }
     this.parts.view()?.redrawTool();
   }
 
@@ -81,9 +97,13 @@ export class BrushTool implements PointerTool {
     if (this.place !== null) drawRing(context, toScreen(viewport, this.place.x, this.place.y), colour);
   }
 
-  private nearest(at: Point): number[] {
-    const [hit] = this.parts.view()?.linesNear(at, BRUSH_RADIUS) ?? [];
-    return hit === undefined ? [] : [hit.index];
+  private nearest(at: Point): number | null {
+    return this.parts.view()?.linesNear(at, BRUSH_RADIUS)[0]?.index ?? null;
+  }
+
+  private effect(at: Point): Verdicts {
+    const last = this.dragged ? this.nearest(at) : this.first;
+    return this.parts.effect({ touched: this.touched, first: this.first, last });
   }
 
   private rest(place: Point | null): void {
@@ -92,14 +112,19 @@ export class BrushTool implements PointerTool {
     this.dragged = false;
     this.stroke = [];
     this.touched = new Set();
+    this.first = null;
     this.parts.preview.clear();
     this.parts.view()?.redrawTool();
   }
 
-  private show(): void {
-    this.parts.preview.show(this.touched, this.parts.verdict);
+  private show(at: Point): void {
+    this.parts.preview.show(this.effect(at));
     this.parts.view()?.redrawTool();
   }
+}
+
+function only(line: number | null): Set<number> {
+  return new Set(line === null ? [] : [line]);
 }
 
 function drawStroke(

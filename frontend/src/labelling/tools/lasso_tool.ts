@@ -47,7 +47,8 @@ export class LassoTool implements PointerTool {
     if (Math.hypot(screen.x - last.x, screen.y - last.y) < CORNER_DISTANCE) return;
     this.last = screen;
     this.loop.push(at);
-    this.parts.preview.show(this.parts.view()?.linesWithin(this.loop) ?? [], null);
+    const inside = this.parts.view()?.linesWithin(this.loop) ?? [];
+    this.parts.preview.show(new Map(inside.map((index) => [index, null])));
     this.parts.view()?.redrawTool();
   }
 

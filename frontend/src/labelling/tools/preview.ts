@@ -2,13 +2,10 @@
 
 import type { Verdict } from "../../api/types";
 
-export interface Touched {
-  readonly indices: ReadonlySet<number>;
-  /** The verdict that they would get; null: they would be selected. */
-  readonly verdict: Verdict | null;
-}
+/** By candidate, the verdict that it would get; null: it would be selected. */
+export type Touched = ReadonlyMap<number, Verdict | null>;
 
-export const NOTHING_TOUCHED: Touched = { indices: new Set(), verdict: null };
+export const NOTHING_TOUCHED: Touched = new Map();
 
 /** Kept apart from the candidates' state: a stroke changes it many times a second, and only the image shows it. */
 export class Preview {
@@ -22,10 +19,8 @@ export class Preview {
     return () => this.listeners.delete(listener);
   };
 
-  show(indices: Iterable<number>, verdict: Verdict | null): void {
-    const next = new Set(indices);
-    if (verdict === this.touched.verdict && sameSet(next, this.touched.indices)) return;
-    this.set({ indices: next, verdict });
+  show(touched: Touched): void {
+    if (changedBetween(this.touched, touched).length > 0) this.set(touched);
   }
 
   clear(): void {
@@ -40,11 +35,7 @@ export class Preview {
 
 /** The lines that look different between two previews. */
 export function changedBetween(before: Touched, after: Touched): number[] {
-  if (before.verdict !== after.verdict) return [...new Set([...before.indices, ...after.indices])];
-  const gone = [...before.indices].filter((index) => !after.indices.has(index));
-  return [...gone, ...[...after.indices].filter((index) => !before.indices.has(index))];
-}
-
-function sameSet(a: ReadonlySet<number>, b: ReadonlySet<number>): boolean {
-  return a.size === b.size && [...a].every((index) => b.has(index));
+  const gone = [...before.keys()].filter((index) => !after.has(index));
+  const others = [...after].filter(([index, verdict]) => before.get(index) !== verdict);
+  return [...gone, ...others.map(([index]) => index)];
 }

@@ -2,7 +2,7 @@
 
 import type { PointerTool } from "../../canvas/pointer_tool";
 
-export type ToolName = "keep-brush" | "reject-brush" | "lasso" | "trace";
+export type ToolName = "keep-brush" | "reject-brush" | "turn-brush" | "lasso" | "trace";
 
 export interface ToolBoxState {
   /** Stays until another one is chosen; null: drags move the image. */

@@ -5,6 +5,7 @@ import { makeScene } from "../../canvas/scene";
 import { BrushTool } from "./brush_tool";
 import { LassoTool } from "./lasso_tool";
 import { changedBetween, NOTHING_TOUCHED, Preview } from "./preview";
+import { givenToAll } from "./stroke_effects";
 import type { LineFinder } from "./tool_view";
 
 /** Four upright lines at x = 0, 4, 40 and 80, from y = 0 to 100; image px are screen px. */
@@ -37,11 +38,11 @@ beforeEach(() => {
 
 const brush = (verdict: Verdict = "reject") =>
   new BrushTool({
-    verdict,
     colour: () => "red",
     view: () => view,
     preview,
-    judge: (indices) => judged.push([...indices].sort()),
+    effect: givenToAll(verdict),
+    judge: (verdicts) => judged.push([...verdicts.keys()].sort()),
   });
 const lasso = () =>
   new LassoTool({
@@ -67,8 +68,7 @@ describe("the brush", () => {
       [20, 50],
       [45, 50],
     ]);
-    expect([...preview.get().indices]).toEqual([2]);
-    expect(preview.get().verdict).toBe("reject");
+    expect([...preview.get()]).toEqual([[2, "reject"]]);
     const further = { x: 90, y: 60 };
     tool.move(further, further);
     tool.up(end, end);
@@ -123,7 +123,7 @@ describe("the brush", () => {
   it("shows while it rests what a click would judge", () => {
     const tool = brush("keep");
     tool.hover({ x: 42, y: 50 });
-    expect([...preview.get().indices]).toEqual([2]);
+    expect([...preview.get()]).toEqual([[2, "keep"]]);
     tool.hover(null);
     expect(preview.get()).toBe(NOTHING_TOUCHED);
   });
@@ -140,7 +140,7 @@ describe("the lasso", () => {
   it("selects what it goes around for the most part", () => {
     const tool = lasso();
     const end = drag(tool, loop);
-    expect([...preview.get().indices].sort()).toEqual([0, 1, 2]);
+    expect([...preview.get().keys()].sort()).toEqual([0, 1, 2]);
     tool.up(end);
     expect(selected).toEqual([{ indices: [0, 1, 2], additional: false }]);
   });
@@ -177,16 +177,19 @@ describe("a preview", () => {
   it("tells only of changes", () => {
     let heard = 0;
     preview.subscribe(() => heard++);
-    preview.show([1, 2], "keep");
-    preview.show([2, 1], "keep");
-    preview.show([1, 2], "reject");
+    const both = (verdict: Verdict, [one, other] = [1, 2]) =>
+      new Map([one, other].map((index) => [index as number, verdict]));
+    preview.show(both("keep"));
+    preview.show(both("keep", [2, 1]));
+    preview.show(both("reject"));
     preview.clear();
     preview.clear();
     expect(heard).toBe(3);
   });
 
   it("names the lines that look different", () => {
-    const touched = (indices: number[], verdict: Verdict | null) => ({ indices: new Set(indices), verdict });
+    const touched = (indices: number[], verdict: Verdict | null) =>
+      new Map(indices.map((index) => [index, verdict]));
     expect(changedBetween(touched([1, 2], "keep"), touched([2, 3], "keep"))).toEqual([1, 3]);
     expect(changedBetween(touched([1], "keep"), touched([1], "reject"))).toEqual([1]);
   });

@@ -25,6 +25,7 @@ export function lookingActions(why: string, next: () => void): Partial<PageActio
     extendLine: refuse,
     stepJoin: () => undefined,
     finish: next,
+    finishAsSuggested: next,
     setReview: async () => {
       refuse();
       return false;

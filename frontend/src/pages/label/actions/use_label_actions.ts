@@ -79,7 +79,13 @@ export function useLabelActions(parts: ActionParts): PageActions {
 
   const { judges, why } = judging;
   return useMemo(() => {
+    function finishAsSuggested(): void {
+      const isTracing = session.getState().clicks.length > 0;
+      if (!isTracing && store?.getState().verdicts.includes("undecided")) suggestions.acceptSuggestions();
+      void ofImage.finish();
+    }
     const actions: PageActions = {
+      finishAsSuggested,
       ...ofPage,
       ...ofVerdicts,
       ...ofImage,
@@ -90,5 +96,5 @@ export function useLabelActions(parts: ActionParts): PageActions {
     };
     if (judges) return actions;
     return { ...actions, ...lookingActions(why ?? LOOKING_ONLY, () => actions.goToImage(1)) };
-  }, [judges, why, ofPage, ofVerdicts, ofImage, views, suggestions, tools, drawing]);
+  }, [judges, why, store, session, ofPage, ofVerdicts, ofImage, views, suggestions, tools, drawing]);
 }

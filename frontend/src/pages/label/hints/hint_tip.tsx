@@ -36,6 +36,8 @@ function isPossible(id: HintId, image: ImageDetail, state: LabelState): boolean 
       const { keep, reject } = countSuggested(state.suggesting, state.sequence);
       return keep + reject > 0;
     }
+    case "turn":
+      return state.suggesting.shown && state.counts.keep + state.counts.reject > 2;
     case "family":
       return state.selection.length === 1 && familyOfSelection(state).length > 1;
     case "take-over":

@@ -1,6 +1,6 @@
 import { useMemo } from "react";
 import type { LabelActions } from "../../../labelling/commands";
-import type { HintId } from "../../../labelling/hints/hints";
+import { HINT_OF_TOOL, type HintId } from "../../../labelling/hints/hints";
 import { hintBook } from "../../../labelling/hints/hints_start";
 
 /** What each action shows to be known. */
@@ -35,7 +35,7 @@ export function useNotedActions<Actions extends LabelActions>(actions: Actions):
       actions.judge(verdict);
     };
     const holdTool: LabelActions["holdTool"] = (name) => {
-      hintBook.learnt(name === "lasso" ? "lasso" : "brush");
+      hintBook.learnt(HINT_OF_TOOL[name]);
       actions.holdTool(name);
     };
     return Object.assign(noted, { judge, holdTool });

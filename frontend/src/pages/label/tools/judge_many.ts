@@ -7,7 +7,7 @@ import { MANY_TOAST } from "../actions/image_toasts";
 
 const DURATION = 4_000;
 
-const DONE: Readonly<Record<Verdict, string>> = {
+export const DONE: Readonly<Record<Verdict, string>> = {
   keep: "kept",
   reject: "rejected",
   ambiguous: "marked ambiguous",
@@ -22,6 +22,12 @@ export function judgeMany(
   reason?: RejectReason,
 ): void {
   if (store.judge(indices, verdict, { reason })) tellMany(store, doneText(verdict, reason));
+}
+
+/** A verdict each for several candidates, as one group. */
+export function judgeEach(store: LabelStore, verdicts: ReadonlyMap<number, Verdict>, done: string): void {
+  const given = [...verdicts].map(([index, verdict]) => ({ index, verdict }));
+  if (store.decide(given)) tellMany(store, done);
 }
 
 function doneText(verdict: Verdict, reason: RejectReason | undefined): string {

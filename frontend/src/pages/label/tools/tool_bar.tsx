@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { useRights } from "../../../api/use_rights";
 import { IconButton } from "../../../design/button";
 import type { IconName } from "../../../design/icons";
+import { HINT_OF_TOOL } from "../../../labelling/hints/hints";
 import { hintBook } from "../../../labelling/hints/hints_start";
 import type { ToolName } from "../../../labelling/tools/tool_box";
 import { toolBox } from "../../../labelling/tools/tools_start";
@@ -21,6 +22,13 @@ const BUTTONS: readonly ToolButton[] = [
   { name: null, label: "Pointer: click selects, drag moves", icon: "pointer", caps: "Esc" },
   { name: "keep-brush", label: "Keep brush; or hold", icon: "keepBrush", caps: "W", judges: true },
   { name: "reject-brush", label: "Reject brush; or hold", icon: "rejectBrush", caps: "E", judges: true },
+  {
+    name: "turn-brush",
+    label: "Turn brush, from one wrong line to another; or hold",
+    icon: "turnBrush",
+    caps: "T",
+    judges: true,
+  },
   { name: "lasso", label: "Lasso selects; or hold", icon: "lasso", caps: "Q" },
 ];
 
@@ -46,7 +54,7 @@ export function ToolBar({ children }: ToolBarProps) {
           className={name === null ? "" : `tool-bar__${name}`}
           aria-pressed={current === name}
           onClick={() => {
-            if (name !== null) hintBook.learnt(name === "lasso" ? "lasso" : "brush");
+            if (name !== null) hintBook.learnt(HINT_OF_TOOL[name]);
             toolBox.choose(name);
           }}
         />

@@ -1,13 +1,15 @@
 import { type RefObject, useEffect } from "react";
 import type { Verdict } from "../../../api/types";
 import { COLOURS } from "../../../canvas/palette";
+import { LASSO } from "../../../canvas/style";
 import type { CanvasView } from "../../../canvas/view";
 import { getPalette } from "../../../design/palette";
 import type { LabelStore } from "../../../labelling/label_store";
 import { BrushTool } from "../../../labelling/tools/brush_tool";
 import { LassoTool } from "../../../labelling/tools/lasso_tool";
+import { givenToAll, turnedVerdicts } from "../../../labelling/tools/stroke_effects";
 import { preview, toolBox } from "../../../labelling/tools/tools_start";
-import { judgeMany } from "./judge_many";
+import { DONE, judgeEach } from "./judge_many";
 
 interface ToolParts {
   /** Whether verdicts may be given at all. */
@@ -23,12 +25,19 @@ export function useTools({ judges, store, viewRef }: ToolParts): void {
     const view = () => viewRef.current;
     const brush = (verdict: Verdict) =>
       new BrushTool({
-        verdict,
         colour: () => COLOURS[getPalette()][verdict],
         view,
         preview,
-        judge: (indices) => judgeMany(store, indices, verdict),
+        effect: givenToAll(verdict),
+        judge: (verdicts) => judgeEach(store, verdicts, DONE[verdict]),
       });
+    const turnBrush = new BrushTool({
+      colour: () => LASSO.colour,
+      view,
+      preview,
+      effect: (stroke) => turnedVerdicts(store.getState(), stroke),
+      judge: (verdicts) => judgeEach(store, verdicts, "turned"),
+    });
     const lasso = new LassoTool({
       view,
       preview,
@@ -37,7 +46,11 @@ export function useTools({ judges, store, viewRef }: ToolParts): void {
     });
     const stops = [toolBox.add("lasso", lasso)];
     if (judges) {
-      stops.push(toolBox.add("keep-brush", brush("keep")), toolBox.add("reject-brush", brush("reject")));
+      stops.push(
+        toolBox.add("keep-brush", brush("keep")),
+        toolBox.add("reject-brush", brush("reject")),
+        toolBox.add("turn-brush", turnBrush),
+      );
     }
     return () => {
       viewRef.current?.cancelDrag();
