@@ -22,7 +22,7 @@ $(STAMP): pyproject.toml requirements.lock build_hook.py build_frontend.py build
 demo: setup
 	$(BIN)/clearlines demo $(ARGS)
 
-# A thread per process: there are enough of them. Byte code is kept: else each server would compile all it imports.
+# A thread per process, there are as many as cores. Byte code is kept: else each server would compile all it imports.
 test: export OMP_NUM_THREADS = 1
 test: export OPENBLAS_NUM_THREADS = 1
 test: export OPENCV_FOR_THREADS_NUM = 1
@@ -35,7 +35,7 @@ test: checks
 suite: setup
 	$(NODE) vitest run
 	$(BIN)/python tools/browser.py
-	$(BIN)/pytest -n 3 --dist loadfile --no-loadscope-reorder $(ARGS)
+	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 lint: checks types
 

@@ -32,14 +32,15 @@
   listen.call(channel.port1, "message", () => { const all = waiting; waiting = []; for (const call of all) call(); });
   channel.port1.start();
   // A message that is posted in a frame arrives once that frame is drawn.
-  probe.afterPaint = (call) => nextFrame(() => { waiting.push(call); channel.port2.postMessage(null); });
+  const afterThisFrame = (call) => { waiting.push(call); channel.port2.postMessage(null); };
+  probe.afterPaint = (call) => nextFrame(() => afterThisFrame(call));
 
   const region = () => document.querySelector("[role=application]");
-  // The region's name tells the image that it shows.
+  // The region's name tells the image that it shows. Looked at as a frame begins: what is true then, that frame shows.
   probe.whenComplete = (before, call) => {
     const look = () => region()?.ariaBusy === "false" && region().ariaLabel !== before
-      ? probe.afterPaint(() => call(performance.now())) : nextFrame(look);
-    look();
+      ? afterThisFrame(() => call(performance.now())) : nextFrame(look);
+    nextFrame(look);
   };
   probe.whenComplete(null, (now) => { probe.painted = now; });
   listen.call(window, "keydown", (event) => {

@@ -41,10 +41,6 @@ FIRST = ("e2e", "api", "services", "synthesis", "packaging", "cluster", "faults"
 """Folders whose files take long, in the order they begin: none of them may be what is waited for at the end, and those
 that start many processes come when the browser tests beside them are done."""
 
-NICENESS = 10
-"""By how much all other processes step back behind that of the browser tests: a page has 5 s to show something."""
-STOOD_BACK = pytest.StashKey[bool]()
-
 EMPTY = """
 DO $$
 DECLARE
@@ -77,19 +73,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         return FIRST.index(folder) if folder in FIRST else len(FIRST)
 
     items.sort(key=place)
-
-
-def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Step back, unless this process begins with the browser tests, where several run side by side.
-
-    There are more of them than cores: tests that wait for other processes leave the cores to the rest.
-    """
-    alone = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")) == 1
-    if alone or not hasattr(os, "nice") or STOOD_BACK in item.config.stash:
-        return
-    item.config.stash[STOOD_BACK] = first_folder(item) != "e2e"
-    if item.config.stash[STOOD_BACK]:
-        os.nice(NICENESS)
 
 
 def first_folder(item: pytest.Item) -> str | None:

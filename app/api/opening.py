@@ -19,8 +19,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 START = "index.html"
 LABEL_PAGE = "src/pages/label/label_page.tsx"
 LABEL_ADDRESS = re.compile(r"/datasets/[^/]+/images/([1-9][0-9]{0,9})")
-LABEL_DATA = ("images/{}/points", "images/{}/display", "images/{}/segments", "images/{}", "configuration", "me")
-"""What takes longest first."""
+LABEL_DATA = ("images/{}", "images/{}/segments", "images/{}/points", "images/{}/display", "configuration", "me")
+"""What the page is laid out by first, then what takes longest."""
 
 
 class Opening:
@@ -70,6 +70,9 @@ def links_of_page(static: Path, page: str) -> list[str]:
         return []
     chunks = [manifest[name] for name in _with_imports(manifest, [START, page])]
     scripts = [f"</{chunk['file']}>; rel=modulepreload" for chunk in chunks]
+    # a worker's script is kept in the cache: later the browser would ask for it behind all data
+    workers = [asset for chunk in chunks for asset in chunk.get("assets", ()) if asset.endswith(".js")]
+    scripts += [f"</{worker}>; rel=modulepreload" for worker in workers]
     return scripts + [
         f"</{style}>; rel=preload; as=style; crossorigin" for chunk in chunks for style in chunk.get("css", ())
     ]

@@ -24,7 +24,15 @@ MANIFEST = {
         "file": "assets/label_page-1.js",
         "imports": ["_framework", "index.html", "_image"],
     },
-    "_image": {"file": "assets/image-1.js", "imports": ["_framework"], "css": ["assets/image-1.css"]},
+    "_image": {
+        "file": "assets/image-1.js",
+        "imports": ["_framework"],
+        "css": ["assets/image-1.css"],
+        "assets": [
+            "assets/picture_worker-1.js",
+            "assets/grain-1.png",
+        ],
+    },
     "src/pages/board/board_page.tsx": {"file": "assets/board_page-1.js"},
 }
 
@@ -57,6 +65,7 @@ def test_the_label_page_is_told_its_files_and_its_data(site) -> None:
         "label_page",
         "framework",
         "image",
+        "picture_worker",
     ]
     assert links[: len(scripts)] == scripts
     assert "</assets/image-1.css>; rel=preload; as=style; crossorigin" in links

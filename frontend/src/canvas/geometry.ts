@@ -36,6 +36,28 @@ export function squaredDistanceToPiece(
   return ex * ex + ey * ey;
 }
 
+/** Whether any part of a polyline x0, y0, x1, y1, ... lies in a box. */
+export function polylineReaches(line: Float32Array, { minX, minY, maxX, maxY }: Box): boolean {
+  const centreX = (minX + maxX) / 2;
+  const centreY = (minY + maxY) / 2;
+  const halfX = (maxX - minX) / 2;
+  const halfY = (maxY - minY) / 2;
+  for (let i = 0; i < line.length; i += 2) {
+    const next = Math.min(i + 2, line.length - 2);
+    const ax = at(line, i) - centreX;
+    const ay = at(line, i + 1) - centreY;
+    const bx = at(line, next) - centreX;
+    const by = at(line, next + 1) - centreY;
+    if (Math.min(ax, bx) > halfX || Math.max(ax, bx) < -halfX) continue;
+    if (Math.min(ay, by) > halfY || Math.max(ay, by) < -halfY) continue;
+    // Neither axis separates them; the piece's own normal may (separating axis theorem).
+    const nx = ay - by;
+    const ny = bx - ax;
+    if (Math.abs(nx * ax + ny * ay) <= Math.abs(nx) * halfX + Math.abs(ny) * halfY) return true;
+  }
+  return false;
+}
+
 /** Distance in px of a position to the polyline of the points first..end - 1. */
 export function distanceToPolyline(
   coordinates: Float32Array,

@@ -1,8 +1,9 @@
 /**
- * Draws the image and its lines on three canvases, at most once per display frame.
+ * Draws the image on one canvas and its lines on another, at most once per display frame.
  *
- * What changed decides what is drawn: a hover touches only the highlights; a movement copies the lines'
- * bitmap; a verdict redraws the bitmap along its line; the end of a movement has the bitmap drawn anew.
+ * What changed decides what is drawn: a hover copies the lines' bitmap and draws its highlight on it, as a movement
+ * does; a verdict redraws the bitmap along its line; the end of a movement has the bitmap drawn anew. A canvas of its
+ * own for the highlights would be one more that each frame has to put on the screen, all of it.
  */
 
 import { drawCompanions, drawHighlights } from "./layers/highlight_layer";
@@ -10,7 +11,7 @@ import { drawImageLayer } from "./layers/image_layer";
 import { LineBitmap } from "./layers/line_bitmap";
 import type { LineLook } from "./layers/line_layer";
 import { drawStages } from "./layers/stage_layer";
-import { clearSurface, makeSurface, resizeSurface, type Surface, setScreenUnits } from "./layers/surface";
+import { makeSurface, resizeSurface, type Surface, setScreenUnits } from "./layers/surface";
 import { linePainter } from "./line_painter_start";
 import type { PointerTool } from "./pointer_tool";
 import { EMPTY_SCENE, type Scene } from "./scene";
@@ -68,17 +69,11 @@ export class Renderer {
   private readonly bitmap: LineBitmap;
   private readonly imageSurface: Surface;
   private readonly lineSurface: Surface;
-  private readonly highlightSurface: Surface;
   private readonly onPainted: (complete: boolean) => void;
   private complete = false;
 
   /** @param onPainted Hears when an opened image and its lines are all drawn, and when they aren't any more. */
-  constructor(
-    image: HTMLCanvasElement,
-    lines: HTMLCanvasElement,
-    highlights: HTMLCanvasElement,
-    onPainted: (complete: boolean) => void,
-  ) {
+  constructor(image: HTMLCanvasElement, lines: HTMLCanvasElement, onPainted: (complete: boolean) => void) {
     this.onPainted = onPainted;
     this.bitmap = new LineBitmap(linePainter, (indices) => {
       for (const index of indices) this.changedLines.add(index);
@@ -86,7 +81,6 @@ export class Renderer {
     });
     this.imageSurface = makeSurface(image);
     this.lineSurface = makeSurface(lines);
-    this.highlightSurface = makeSurface(highlights);
   }
 
   update(part: Partial<RendererState>, ...changes: Change[]): void {
@@ -106,7 +100,7 @@ export class Renderer {
     this.screen = screen;
     this.ratio = ratio;
     linePainter.setScreen(screen, ratio);
-    for (const surface of [this.imageSurface, this.lineSurface, this.highlightSurface]) {
+    for (const surface of [this.imageSurface, this.lineSurface]) {
       resizeSurface(surface, screen, ratio);
     }
     this.update({}, "view", "image", "highlights");
@@ -134,8 +128,11 @@ export class Renderer {
     if (changed.has("view") || changed.has("image")) {
       drawImageLayer(this.imageSurface, image, imageSize, viewport, this.ratio);
     }
-    if (this.drawLines(changed)) this.bitmap.copyTo(this.lineSurface, viewport, this.ratio);
-    this.drawHighlights();
+    this.bringUpToDate(changed);
+    if ([...changed].some((change) => change !== "image")) {
+      this.bitmap.copyTo(this.lineSurface, viewport, this.ratio);
+      this.drawHighlights();
+    }
     this.tellPainted();
   }
 
@@ -148,26 +145,22 @@ export class Renderer {
     this.onPainted(drawn);
   }
 
-  /** Brings the bitmap up to date; true where the screen has to follow. */
-  private drawLines(changed: ReadonlySet<Change>): boolean {
+  private bringUpToDate(changed: ReadonlySet<Change>): void {
     const { scene, look, viewport } = this.state;
-    const moved = changed.has("view");
-    if (moved) this.drawAfterRest();
+    if (changed.has("view")) this.drawAfterRest();
     if (changed.has("scene")) this.bitmap.reset();
-    const redrawn = this.redrawChanged();
-    const anew = changed.has("scene") || changed.has("lines") || redrawn === "too many";
+    const anew = !this.redrawChanged() || changed.has("scene") || changed.has("lines");
     if (anew) this.bitmap.start({ scene, look, viewport, screen: this.screen, ratio: this.ratio });
-    return moved || anew || changed.has("picture") || redrawn === "redrawn";
   }
 
-  private redrawChanged(): "nothing" | "redrawn" | "too many" {
+  /** Redraws the bitmap along the lines that changed; false where they are too many for that. */
+  private redrawChanged(): boolean {
     const { scene, look } = this.state;
     const indices = [...this.changedLines];
     this.changedLines.clear();
-    if (indices.length === 0) return "nothing";
-    if (indices.length > MOST_REDRAWN) return "too many";
-    this.bitmap.redraw(indices, scene, look);
-    return "redrawn";
+    if (indices.length > MOST_REDRAWN) return false;
+    if (indices.length > 0) this.bitmap.redraw(indices, scene, look);
+    return true;
   }
 
   private drawAfterRest(): void {
@@ -181,10 +174,11 @@ export class Renderer {
   }
 
   private drawHighlights(): void {
-    const { scene, look, viewport, selected, hovered, companions, stages, markedGap } = this.state;
-    clearSurface(this.highlightSurface);
-    setScreenUnits(this.highlightSurface, this.ratio);
-    const { context } = this.highlightSurface;
+    const { scene, look, viewport, selected, hovered, companions, stages, markedGap, tool } = this.state;
+    const { context } = this.lineSurface;
+    if (selected !== null || hovered !== null || companions.length > 0 || tool?.draw !== undefined) {
+      setScreenUnits(this.lineSurface, this.ratio);
+    }
     // A trace that came for a line selected before is not drawn.
     const trace = stages !== null && stages.index === selected ? stages : null;
     if (trace === null) drawHighlights(context, scene, look, viewport, selected, hovered);
@@ -193,6 +187,6 @@ export class Renderer {
       drawStages(context, trace, viewport, markedGap);
     }
     drawCompanions(context, scene, viewport, companions);
-    this.state.tool?.draw?.(context, viewport);
+    tool?.draw?.(context, viewport);
   }
 }

@@ -22,8 +22,8 @@ export interface ViewListener extends PointingListener {
 
 export interface ViewCanvases {
   readonly image: HTMLCanvasElement;
+  /** Above the image. */
   readonly lines: HTMLCanvasElement;
-  readonly highlights: HTMLCanvasElement;
 }
 
 export class CanvasView {
@@ -41,7 +41,7 @@ export class CanvasView {
 
   constructor(host: HTMLElement, canvases: ViewCanvases, listener: ViewListener) {
     this.listener = listener;
-    this.renderer = new Renderer(canvases.image, canvases.lines, canvases.highlights, listener.painted);
+    this.renderer = new Renderer(canvases.image, canvases.lines, listener.painted);
     this.navigation = new Navigation({
       departed: () => this.pointing.departed(),
       moved: (viewport, mirrored) => this.moved(viewport, mirrored),

@@ -1,5 +1,13 @@
 import { describe, expect, it } from "vitest";
-import { formatBytes, formatDuration, formatSpeed, sentence, splitForEllipsis } from "./format";
+import {
+  formatBytes,
+  formatCount,
+  formatDuration,
+  formatQuantity,
+  formatSpeed,
+  sentence,
+  splitForEllipsis,
+} from "./format";
 
 describe("splitForEllipsis", () => {
   it("keeps the end of a long name", () => {
@@ -33,4 +41,13 @@ it("rounds as people do", () => {
   expect(formatSpeed(1_500.4)).toBe("2 kB/s");
   expect(formatDuration(0.2)).toBe("1 s");
   expect(formatDuration(125 * 60)).toBe("2 h 5 min");
+});
+
+it("writes whole numbers as the browser would", () => {
+  const browsers = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
+  for (const count of [0, 7, 999, 1_000, 12_345, 600_000, 1_234_567, -1_234, 41.6]) {
+    expect(formatCount(count)).toBe(browsers.format(count));
+  }
+  expect(formatQuantity(1, "image")).toBe("1 image");
+  expect(formatQuantity(2_000, "image")).toBe("2,000 images");
 });

@@ -1,4 +1,4 @@
-import { type ReactNode, type RefObject, useLayoutEffect, useRef, useState } from "react";
+import { type ReactNode, type RefObject, useLayoutEffect, useRef } from "react";
 import type { Point } from "../canvas/geometry";
 import type { Hit, Scene } from "../canvas/scene";
 import { CanvasView } from "../canvas/view";
@@ -31,6 +31,8 @@ interface ImageCanvasProps extends Size {
    */
   onClick: (hits: readonly Hit[], again: boolean, shift: boolean) => void;
   onViewport: (viewport: Viewport) => void;
+  /** Image and lines have been drawn. */
+  onPainted?: (() => void) | undefined;
   children?: ReactNode;
 }
 
@@ -43,25 +45,26 @@ export function ImageCanvas(props: ImageCanvasProps) {
     props;
   const imageCanvas = useRef<HTMLCanvasElement>(null);
   const lineCanvas = useRef<HTMLCanvasElement>(null);
-  const highlightCanvas = useRef<HTMLCanvasElement>(null);
-  const [painted, setPainted] = useState<number | string | null>(null);
-  const opened = useRef(imageKey);
   const latest = useRef(props);
   latest.current = props;
 
   useLayoutEffect(() => {
     const host = regionRef.current;
-    const canvases = [imageCanvas.current, lineCanvas.current, highlightCanvas.current] as const;
-    const [image, lines, highlights] = canvases;
-    if (host === null || image === null || lines === null || highlights === null) return;
+    const image = imageCanvas.current;
+    const lines = lineCanvas.current;
+    if (host === null || image === null || lines === null) return;
     const view = new CanvasView(
       host,
-      { image, lines, highlights },
+      { image, lines },
       {
         hover: (index, screen) => latest.current.onHover(screen === null ? null : { index, screen }),
         click: (hits, again, shift) => latest.current.onClick(hits, again, shift),
         viewChanged: (viewport) => latest.current.onViewport(viewport),
-        painted: (complete) => setPainted(complete ? opened.current : null),
+        painted: (complete) => {
+          // Not by way of React: in the very frame in which it becomes true.
+          host.ariaBusy = String(!complete);
+          if (complete) latest.current.onPainted?.();
+        },
       },
     );
     viewRef.current = view;
@@ -71,8 +74,8 @@ export function ImageCanvas(props: ImageCanvasProps) {
     };
   }, [regionRef, viewRef]);
 
+  // biome-ignore lint/correctness/useExhaustiveDependencies: images of one size are opened too
   useLayoutEffect(() => {
-    opened.current = imageKey;
     viewRef.current?.open({ width, height });
   }, [viewRef, imageKey, width, height]);
 
@@ -93,13 +96,13 @@ export function ImageCanvas(props: ImageCanvasProps) {
       role="application"
       aria-label={label}
       aria-describedby={props.describedBy}
-      aria-busy={painted !== imageKey}
+      // As it begins; from then on the canvas engine says it.
+      aria-busy={true}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: the image is operated by keys, as an application region
       tabIndex={0}
     >
       <canvas ref={imageCanvas} style={filter === undefined ? undefined : { filter }} />
       <canvas ref={lineCanvas} />
-      <canvas ref={highlightCanvas} />
       {children}
     </section>
   );

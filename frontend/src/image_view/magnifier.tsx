@@ -2,6 +2,7 @@ import { useEffect, useRef } from "react";
 import { clearSurface, makeSurface, resizeSurface } from "../canvas/layers/surface";
 import { drawMagnifier, MAGNIFICATION } from "../canvas/magnifier";
 import type { Scene } from "../canvas/scene";
+import { afterNextFrame } from "./after_next_frame";
 
 interface MagnifierProps {
   scene: Scene;
@@ -16,12 +17,14 @@ export function Magnifier({ scene, bitmap, index, colour }: MagnifierProps) {
   useEffect(() => {
     const element = canvas.current;
     if (element === null || bitmap === null) return;
-    const surface = makeSurface(element);
-    const size = { width: element.clientWidth, height: element.clientHeight };
-    const ratio = window.devicePixelRatio || 1;
-    resizeSurface(surface, size, ratio);
-    clearSurface(surface);
-    drawMagnifier(surface, size, ratio, bitmap, bitmap, scene, index, colour);
+    return afterNextFrame(() => {
+      const surface = makeSurface(element);
+      const size = { width: element.clientWidth, height: element.clientHeight };
+      const ratio = window.devicePixelRatio || 1;
+      resizeSurface(surface, size, ratio);
+      clearSurface(surface);
+      drawMagnifier(surface, size, ratio, bitmap, bitmap, scene, index, colour);
+    });
   }, [scene, bitmap, index, colour]);
   return (
     <figure className="magnifier">

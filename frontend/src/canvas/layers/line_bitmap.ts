@@ -7,7 +7,7 @@
  */
 
 import { type Frame, frameOf, sameFrame } from "../frame";
-import type { Box } from "../geometry";
+import { type Box, polylineReaches } from "../geometry";
 import type { LinePainter } from "../line_painter";
 import type { Drawing } from "../picture_task";
 import type { Scene } from "../scene";
@@ -15,7 +15,7 @@ import type { Size, Viewport } from "../viewport";
 import { drawLines, type LineLook } from "./line_layer";
 import { packLines } from "./packed_lines";
 import { boxesAlong, canvasBox, imageBox } from "./regions";
-import { clearSurface, makeSurface, type Surface, setScreenUnits } from "./surface";
+import { clearSurface, drawBitmap, makeSurface, type Surface, setScreenUnits } from "./surface";
 
 interface Wish {
   readonly scene: Scene;
@@ -44,7 +44,8 @@ export class LineBitmap {
   private valid = false;
   /** Which scene's pictures are still wanted: what comes for another one is thrown away. */
   private generation = 0;
-  private underWay = false;
+  /** What the picture shows that is being drawn. */
+  private underWay: Frame | null = null;
   private next: Wish | null = null;
   /** Lines that changed since the picture under way was asked for. */
   private readonly changed = new Set<number>();
@@ -59,7 +60,7 @@ export class LineBitmap {
   reset(): void {
     this.generation++;
     this.valid = false;
-    this.underWay = false;
+    this.underWay = null;
     this.next = null;
     this.changed.clear();
     clearSurface(this.surface);
@@ -68,7 +69,7 @@ export class LineBitmap {
   /** Asks for a drawing; of several that are asked for meanwhile the last one is made. */
   start(wish: Wish): void {
     this.next = wish;
-    if (!this.underWay) this.begin();
+    if (this.underWay === null) this.begin();
   }
 
   /** Takes back what nobody has begun to draw: the view has moved on. */
@@ -76,26 +77,33 @@ export class LineBitmap {
     if (this.valid) this.next = null;
   }
 
-  /** Whether what is shown was drawn for just this, and isn't only moved there. */
+  /** Whether what is shown, or is about to be, is drawn for just this and isn't only moved there. */
   isDrawnFor(viewport: Viewport, screen: Size, ratio: number): boolean {
-    return this.valid && !this.drawing && sameFrame(this.frame, frameOf(viewport, screen, ratio));
+    const { next } = this;
+    const shown = this.underWay ?? (this.valid ? this.frame : NO_FRAME);
+    const last = next === null ? shown : frameOf(next.viewport, next.screen, next.ratio);
+    return sameFrame(last, frameOf(viewport, screen, ratio));
   }
 
   /** Whether a drawing that is asked for isn't there yet. */
   get drawing(): boolean {
-    return this.underWay || this.next !== null;
+    return this.underWay !== null || this.next !== null;
   }
 
   /** Redraws what lies along some lines; the picture under way is redrawn there once it has come. */
   redraw(indices: readonly number[], scene: Scene, look: LineLook): void {
-    if (this.underWay) for (const index of indices) this.changed.add(index);
+    if (this.underWay !== null) for (const index of indices) this.changed.add(index);
     if (this.next !== null) this.next = { ...this.next, look };
     if (!this.valid) return;
     const { viewport, ratio, margin } = this.frame;
     // Box by box: a clip of one rectangle is cheap, a clip of many is not.
     for (const box of indices.flatMap((index) => boxesAlong(scene, index))) {
       const region = canvasBox(box, viewport, ratio, margin);
-      const touching = scene.places.touching(imageBox(region, viewport, ratio, margin));
+      const around = imageBox(region, viewport, ratio, margin);
+      // Of a slanted line the box is mostly empty: most that it touches are seen elsewhere.
+      const touching = scene.places
+        .touching(around, look.visible)
+        .filter((line) => polylineReaches(scene.line(line, viewport.scale), around));
       const lines = packLines(scene, look, viewport.scale, touching);
       drawRegion(this.surface, region, { lines, styles: look.styles, frame: this.frame });
     }
@@ -110,7 +118,8 @@ export class LineBitmap {
     const x = (viewport.offsetX - drawnAt.offsetX * change) * ratio - margin * change;
     const y = (viewport.offsetY - drawnAt.offsetY * change) * ratio - margin * change;
     target.context.imageSmoothingEnabled = change !== 1;
-    target.context.drawImage(this.surface.canvas, x, y, width * change, height * change);
+    const place = { minX: x, minY: y, maxX: x + width * change, maxY: y + height * change };
+    drawBitmap(target, this.surface.canvas, place);
   }
 
   private begin(): void {
@@ -130,7 +139,7 @@ export class LineBitmap {
 
   private await(painted: Promise<ImageBitmap>, drawing: Drawing): void {
     const { generation } = this;
-    this.underWay = true;
+    this.underWay = drawing.frame;
     painted.then(
       (picture) => {
         if (generation === this.generation) this.come(() => this.take(picture, drawing.frame));
@@ -145,7 +154,7 @@ export class LineBitmap {
   private come(show: () => void): void {
     const changed = [...this.changed];
     this.changed.clear();
-    this.underWay = false;
+    this.underWay = null;
     show();
     this.begin();
     this.arrived(changed);
@@ -153,7 +162,7 @@ export class LineBitmap {
 
   private take(picture: ImageBitmap, frame: Frame): void {
     this.use(frame);
-    this.surface.context.drawImage(picture, 0, 0);
+    drawBitmap(this.surface, picture, { minX: 0, minY: 0, maxX: frame.width, maxY: frame.height });
     picture.close();
   }
 

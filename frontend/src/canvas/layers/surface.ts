@@ -1,34 +1,53 @@
 /** A canvas that has as many pixels as the screen shows of it. */
 
+import type { Box } from "../geometry";
 import type { Size, Viewport } from "../viewport";
 
 export interface Surface {
   readonly canvas: HTMLCanvasElement;
   readonly context: CanvasRenderingContext2D;
+  /** Nothing has been drawn since it was cleared: to clear it again would only have it put on the screen again. */
+  blank: boolean;
 }
 
 export function makeSurface(canvas: HTMLCanvasElement): Surface {
   const context = canvas.getContext("2d");
   if (context === null) throw new Error("This browser gives no 2D canvas.");
-  return { canvas, context };
+  return { canvas, context, blank: false };
 }
 
 /** @param margin Canvas px beyond the screen on each side. */
-export function resizeSurface({ canvas }: Surface, screen: Size, ratio: number, margin = 0): void {
+export function resizeSurface(surface: Surface, screen: Size, ratio: number, margin = 0): void {
+  const { canvas } = surface;
   const width = Math.max(1, Math.round(screen.width * ratio) + 2 * margin);
   const height = Math.max(1, Math.round(screen.height * ratio) + 2 * margin);
-  if (canvas.width !== width) canvas.width = width;
-  if (canvas.height !== height) canvas.height = height;
+  if (canvas.width === width && canvas.height === height) return;
+  canvas.width = width;
+  canvas.height = height;
+  surface.blank = true;
 }
 
-export function clearSurface({ canvas, context }: Surface): void {
+export function clearSurface(surface: Surface): void {
+  const { canvas, context } = surface;
   context.setTransform(1, 0, 0, 1, 0, 0);
-  context.clearRect(0, 0, canvas.width, canvas.height);
+  if (!surface.blank) context.clearRect(0, 0, canvas.width, canvas.height);
+  surface.blank = true;
 }
 
 /** Lets the context draw in CSS px of the screen. */
-export function setScreenUnits({ context }: Surface, ratio: number, margin = 0): void {
-  context.setTransform(ratio, 0, 0, ratio, margin, margin);
+export function setScreenUnits(surface: Surface, ratio: number, margin = 0): void {
+  surface.context.setTransform(ratio, 0, 0, ratio, margin, margin);
+  surface.blank = false;
+}
+
+/** Draws a bitmap, in canvas px, on what has just been cleared. */
+export function drawBitmap(
+  surface: Surface,
+  bitmap: CanvasImageSource,
+  { minX, minY, maxX, maxY }: Box,
+): void {
+  surface.context.drawImage(bitmap, minX, minY, maxX - minX, maxY - minY);
+  surface.blank = false;
 }
 
 /** Adds one polyline in image px to a path in screen px. */

@@ -1,4 +1,4 @@
-import { useMemo } from "react";
+import { useMemo, useState } from "react";
 import { Link, useParams } from "react-router";
 import { useRights } from "../../api/use_rights";
 import { buttonClass } from "../../design/button";
@@ -6,6 +6,7 @@ import { PageFrame } from "../../design/page_frame";
 import { ErrorState, LoadingState } from "../../design/states";
 import { shortName } from "../../image_view/short_name";
 import { outbox } from "../../labelling/outbox_start";
+import { PLAIN_LOOK } from "../../labelling/views/image_look";
 import { LabelWorkspace } from "./label_workspace";
 import { JudgingContext, judgingOf } from "./people/judging";
 import { Presence } from "./people/presence";
@@ -22,6 +23,8 @@ export function LabelPage() {
   const { image, error, retry } = session;
   const { label: may } = useRights();
   const lease = useLease(image?.id);
+  // Here, since the workspace goes while an image that nothing was fetched of is waited for.
+  const look = useState(PLAIN_LOOK);
   const judging = useMemo(() => judgingOf(may, lease.holder), [may, lease.holder]);
   return (
     <PageFrame
@@ -40,7 +43,7 @@ export function LabelPage() {
     >
       {image !== undefined ? (
         <JudgingContext value={judging}>
-          <LabelWorkspace slug={slug} session={session} image={image} lease={lease} />
+          <LabelWorkspace slug={slug} session={session} image={image} lease={lease} look={look} />
         </JudgingContext>
       ) : error ? (
         <ErrorState

@@ -22,26 +22,27 @@ import { useToolActions } from "./tools/use_tool_actions";
 import { useToolBox } from "./tools/use_tool_box";
 import { useTools } from "./tools/use_tools";
 import { useOverlays } from "./use_overlays";
-import { useImageLook } from "./views/use_image_look";
+import { type KeptLook, useImageLook } from "./views/use_image_look";
 
 export interface WorkspaceParts {
   slug: string;
   session: LabelSession;
   image: ImageDetail;
   lease: Lease;
+  look: KeptLook;
 }
 
 export type Workspace = ReturnType<typeof useWorkspace>;
 
 /** What the page's parts share: the view, how the image is seen, and all that keys and buttons do. */
-export function useWorkspace({ slug, session, image, lease }: WorkspaceParts) {
+export function useWorkspace({ slug, session, image, lease, look }: WorkspaceParts) {
   const { annotations, store } = session;
   const viewRef = useRef<CanvasView | null>(null);
   const regionRef = useRef<HTMLElement | null>(null);
   const panelRef = useRef<HTMLElement | null>(null);
   const focus = usePageFocus(regionRef, panelRef);
   const { shown, control } = useOverlays(image.id);
-  const seen = useImageLook(image, annotations?.scene ?? null);
+  const seen = useImageLook(image, annotations?.scene ?? null, look);
   const whenHistoryKnown = useHistory(image.id, store, lease.news);
   const judging = useJudging();
   const { judges } = judging;

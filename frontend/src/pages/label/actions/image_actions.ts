@@ -19,7 +19,7 @@ interface ImageParts {
   overlays: OverlayControl;
   /** The line that is being traced. */
   session: TraceSession;
-  navigate: (path: string) => void;
+  navigate: (path: string, how?: { flushSync: boolean }) => void;
   queryClient: QueryClient;
 }
 
@@ -32,7 +32,8 @@ type ImageActions = Pick<
 export function imageActions(parts: ImageParts): ImageActions {
   const { slug, image, store, overlays, session, navigate, queryClient } = parts;
 
-  const goTo = (id: number) => navigate(`/datasets/${slug}/images/${id}`);
+  // At once: as a transition, which the router makes of it, the image would wait for its turn.
+  const goTo = (id: number) => navigate(`/datasets/${slug}/images/${id}`, { flushSync: true });
 
   async function setReview(
     status: ReviewStatus,

@@ -2,6 +2,7 @@ import { type RefObject, useLayoutEffect, useState } from "react";
 import type { ImageDetail } from "../../../api/types";
 import type { Hit, Scene } from "../../../canvas/scene";
 import type { CanvasView } from "../../../canvas/view";
+import { firstPaint } from "../../../image_view/first_paint";
 import { ImageCanvas, type PointerPlace } from "../../../image_view/image_canvas";
 import type { LabelStore } from "../../../labelling/label_store";
 import { preview } from "../../../labelling/tools/tools_start";
@@ -47,6 +48,7 @@ export function CanvasRegion(props: CanvasRegionProps) {
       onHover={(place) => setPointer(place?.index == null ? null : place)}
       onClick={(hits, again, shift) => selectHit(store, hits, again, shift)}
       onViewport={({ scale }) => onScale(scale)}
+      onPainted={() => firstPaint.painted(image.id)}
     >
       {store && pointer ? <CandidateReadout store={store} pointer={pointer} /> : null}
     </ImageCanvas>

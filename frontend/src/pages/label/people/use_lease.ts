@@ -2,6 +2,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useEffect, useMemo, useSyncExternalStore } from "react";
 import { meQuery } from "../../../api/board_queries";
 import { dropLease, type LeaseState, type Present, putLease } from "../../../api/people_endpoints";
+import { firstPaint } from "../../../image_view/first_paint";
 import { LeaseKeeper, mayDecide } from "../../../labelling/people/lease_keeper";
 import { pageId } from "./page_id";
 
@@ -26,22 +27,24 @@ export function useLease(imageId: number | undefined): Lease {
     [imageId, person],
   );
   useEffect(() => {
-    if (keeper === null) return;
+    if (keeper === null || imageId === undefined) return;
+    let left = false;
     const onVisible = () => document.visibilityState === "visible" && keeper.renew();
     const onLeave = () => keeper.stop();
     // A page that comes out of the browser's memory is there again.
     const onReturn = () => keeper.start();
-    keeper.start();
+    firstPaint.whenPainted(imageId).then(() => left || keeper.start());
     document.addEventListener("visibilitychange", onVisible);
     window.addEventListener("pagehide", onLeave);
     window.addEventListener("pageshow", onReturn);
     return () => {
+      left = true;
       document.removeEventListener("visibilitychange", onVisible);
       window.removeEventListener("pagehide", onLeave);
       window.removeEventListener("pageshow", onReturn);
       keeper.stop();
     };
-  }, [keeper]);
+  }, [keeper, imageId]);
   const state = useSyncExternalStore(
     keeper?.subscribe ?? subscribeToNothing,
     keeper?.getState ?? nothingKnown,

@@ -4,6 +4,7 @@ import { getDecisions } from "../../../api/endpoints";
 import { keys } from "../../../api/queries";
 import { formatQuantity } from "../../../design/format";
 import { toast } from "../../../design/toast";
+import { firstPaint } from "../../../image_view/first_paint";
 import { editedSegments } from "../../../labelling/drawing/edits";
 import type { LabelStore } from "../../../labelling/label_store";
 import { onDecisionsStored, outbox, seenDecisions } from "../../../labelling/outbox_start";
@@ -29,8 +30,9 @@ export function useHistory(
     if (store === null) return;
     let running = false;
     let again = false;
+    let left = false;
     const bring = (): Promise<void> => {
-      if (document.visibilityState === "hidden") return Promise.resolve();
+      if (left || document.visibilityState === "hidden") return Promise.resolve();
       again = running;
       if (running) return Promise.resolve();
       running = true;
@@ -41,7 +43,7 @@ export function useHistory(
           if (again) bring();
         });
     };
-    known.current = bring();
+    known.current = firstPaint.whenPainted(imageId).then(bring);
     bringAgain.current = bring;
     const stopHearing = onDecisionsStored((id, { others }) => {
       if (id === imageId && others.length > 0) bring();
@@ -55,6 +57,7 @@ export function useHistory(
     window.addEventListener("focus", bring);
     document.addEventListener("visibilitychange", bring);
     return () => {
+      left = true;
       stopHearing();
       stopWatching();
       window.removeEventListener("focus", bring);

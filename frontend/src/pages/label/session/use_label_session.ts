@@ -1,12 +1,19 @@
 /** The data of the image under review, from the server and the outbox, and that of its neighbours. */
 
-import { type QueryClient, queryOptions, useQuery, useQueryClient } from "@tanstack/react-query";
-import { useEffect, useMemo, useRef } from "react";
+import {
+  type QueryClient,
+  queryOptions,
+  usePrefetchQuery,
+  useQuery,
+  useQueryClient,
+} from "@tanstack/react-query";
+import { useEffect, useLayoutEffect, useMemo, useRef } from "react";
 import { displayUrl } from "../../../api/endpoints";
 import { imageQuery, keys, suggestionsQuery } from "../../../api/queries";
 import type { ImageDetail } from "../../../api/types";
 import { linePainter } from "../../../canvas/line_painter_start";
 import { getPalette } from "../../../design/palette";
+import { firstPaint } from "../../../image_view/first_paint";
 import { imageLoader } from "../../../image_view/use_image_bitmap";
 import { type Annotations, loadAnnotations } from "../../../labelling/annotations";
 import { candidateLook } from "../../../labelling/candidate_look";
@@ -58,6 +65,9 @@ export interface LabelSession {
 
 export function useLabelSession(slug: string, imageId: number): LabelSession {
   const queryClient = useQueryClient();
+  // Asked for while the page is rendered, not once an empty one has been painted.
+  usePrefetchQuery(imageQuery(imageId));
+  usePrefetchQuery(annotationsQuery(imageId));
   const image = useQuery({
     ...imageQuery(imageId),
     refetchInterval: ({ state }) => (isUnderWay(state.data) ? POLL : false),
@@ -66,7 +76,7 @@ export function useLabelSession(slug: string, imageId: number): LabelSession {
   const data = annotations.data;
 
   // Together with the rest, not after it: whatever goes wrong is said by who shows it.
-  useEffect(() => {
+  useLayoutEffect(() => {
     imageLoader.load(displayUrl(imageId)).catch(() => undefined);
   }, [imageId]);
 
@@ -142,7 +152,7 @@ function usePrefetch(queryClient: QueryClient, image: ImageDetail | undefined, a
     const run = async () => {
       const shown = latest.current;
       if (shown === undefined) return;
-      await imageLoader.load(displayUrl(shown.id)).catch(() => undefined);
+      await firstPaint.whenPainted(shown.id);
       for (const id of neighbours.split(",")) {
         if (wanted && id !== "") await prefetch(queryClient, Number(id));
       }

@@ -1,8 +1,10 @@
 import { useQuery } from "@tanstack/react-query";
 import { type RefObject, useEffect, useMemo, useState } from "react";
+import { getSuggestions } from "../../../api/endpoints";
 import { suggestionsQuery } from "../../../api/queries";
 import type { SuggestionModelName } from "../../../api/types";
 import type { CanvasView } from "../../../canvas/view";
+import { firstPaint } from "../../../image_view/first_paint";
 import type { LabelStore } from "../../../labelling/label_store";
 import { bringSuggestions } from "../../../labelling/suggestions/bring_suggestions";
 import type { SuggestionActions } from "../../../labelling/suggestions/commands_suggestions";
@@ -31,8 +33,11 @@ export function useSuggestions(
   viewRef: RefObject<CanvasView | null>,
   judges: boolean,
 ): SuggestionSession {
-  // After the candidates, without which nothing is seen: on a small machine their server works it out.
-  const query = useQuery({ ...suggestionsQuery(imageId), enabled: judges && store !== null });
+  const query = useQuery({
+    ...suggestionsQuery(imageId),
+    queryFn: () => firstPaint.whenPainted(imageId).then(() => getSuggestions(imageId)),
+    enabled: judges && store !== null,
+  });
   const { data } = query;
   const [preferences, setPreferences] = useState(() => readSuggestionPreferences(localStorage));
 

@@ -1,5 +1,5 @@
 import { useQuery, useQueryClient } from "@tanstack/react-query";
-import { useCallback, useEffect, useMemo, useState } from "react";
+import { type Dispatch, type SetStateAction, useCallback, useEffect, useMemo, useState } from "react";
 import { displayUrl, getPoints } from "../../../api/endpoints";
 import { asProblem } from "../../../api/problem";
 import { keys } from "../../../api/queries";
@@ -36,9 +36,15 @@ export interface ImageLookState {
   retry: () => void;
 }
 
-/** How the image is shown: kept from image to image, since a dark sequence is dark all along. */
-export function useImageLook(image: ImageDetail, plainScene: Scene | null): ImageLookState {
-  const [look, setLook] = useState(PLAIN_LOOK);
+/** Kept from image to image, since a dark sequence is dark all along. */
+export type KeptLook = readonly [ImageLook, Dispatch<SetStateAction<ImageLook>>];
+
+/** How the image is shown. */
+export function useImageLook(
+  image: ImageDetail,
+  plainScene: Scene | null,
+  [look, setLook]: KeptLook,
+): ImageLookState {
   const latest = useLatestLook(look);
   const undistorted = look.view === "undistorted";
   const straight = useUndistortedScene(image, plainScene, undistorted);
@@ -52,7 +58,7 @@ export function useImageLook(image: ImageDetail, plainScene: Scene | null): Imag
     const { message, hint } = asProblem(problem);
     toast({ key: LOOK_TOAST, tone: "danger", message: hint ? `${message}: ${hint}` : message });
     setLook((before) => ({ ...before, view: "plain" }));
-  }, [problem]);
+  }, [problem, setLook]);
 
   const actions = useMemo<ViewsActions>(
     () => ({
@@ -68,7 +74,7 @@ export function useImageLook(image: ImageDetail, plainScene: Scene | null): Imag
       },
       plainView: () => setLook(PLAIN_LOOK),
     }),
-    [latest],
+    [latest, setLook],
   );
 
   const ready = other.bitmap !== null && (!undistorted || straight.scene !== null);
