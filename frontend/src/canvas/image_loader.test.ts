@@ -4,18 +4,28 @@ import { ImageLoader, requireStoredSize } from "./image_loader";
 const LARGE = { width: 6000, height: 4000 };
 let asked: string[] = [];
 let working = true;
+/** What the next requests end in, before any is answered. */
+let breaks: ("before" | "within")[] = [];
 
 beforeEach(() => {
   asked = [];
   working = true;
+  breaks = [];
   vi.stubGlobal("fetch", async (url: string) => {
     asked.push(url);
+    const broken = breaks.shift();
+    if (broken === "before") throw new TypeError("Failed to fetch");
+    if (broken === "within") return new Response(brokenOff());
     return working ? new Response(url) : new Response(null, { status: 500 });
   });
   vi.stubGlobal("createImageBitmap", async () => LARGE);
 });
 
 afterEach(() => vi.unstubAllGlobals());
+
+function brokenOff(): ReadableStream {
+  return new ReadableStream({ pull: (controller) => controller.error(new TypeError("network error")) });
+}
 
 describe("images", () => {
   it("are fetched once, whatever their address says of the view", async () => {
@@ -59,6 +69,30 @@ describe("images", () => {
     working = true;
     await loader.load("a");
     expect(asked).toEqual(["a", "a"]);
+  });
+
+  it.each(["before", "within"] as const)(
+    "are asked for once more when the network breaks off %s the answer",
+    async (broken) => {
+      const loader = new ImageLoader();
+      breaks = [broken];
+      expect(await loader.load("a")).toBe(LARGE);
+      expect(asked).toEqual(["a", "a"]);
+    },
+  );
+
+  it("aren't asked for a third time", async () => {
+    const loader = new ImageLoader();
+    breaks = ["before", "within"];
+    await expect(loader.load("a")).rejects.toMatchObject({ problem: { code: "unreachable" } });
+    expect(asked).toEqual(["a", "a"]);
+  });
+
+  it("aren't asked for again when the server says no", async () => {
+    const loader = new ImageLoader();
+    working = false;
+    await expect(loader.load("a")).rejects.toMatchObject({ problem: { status: 500 } });
+    expect(asked).toEqual(["a"]);
   });
 
   it("are refused in another size than they are stored in", () => {

@@ -79,6 +79,18 @@ export function requireStoredSize(bitmap: ImageBitmap, stored: Size): void {
 }
 
 async function fetchBitmap(url: string): Promise<ImageBitmap> {
+  // Once more: a network that changes at that moment breaks off what is under way, and works again at once.
+  const blob = await fetchBlob(url).catch((error: RequestFailed) => {
+    if (error.problem.status !== 0) throw error;
+    return fetchBlob(url);
+  });
+  return createImageBitmap(blob, { colorSpaceConversion: "none" }).catch(() => {
+    throw new RequestFailed(UNREADABLE);
+  });
+}
+
+/** @throws RequestFailed with status 0 where the answer doesn't come, or breaks off. */
+async function fetchBlob(url: string): Promise<Blob> {
   const response = await fetch(url).catch(() => {
     throw unreachable();
   });
@@ -86,8 +98,7 @@ async function fetchBitmap(url: string): Promise<ImageBitmap> {
     const { problem } = problemFrom(await response.json().catch(() => null), response);
     throw new RequestFailed({ ...problem, title: UNREADABLE.title });
   }
-  const blob = await response.blob();
-  return createImageBitmap(blob, { colorSpaceConversion: "none" }).catch(() => {
-    throw new RequestFailed(UNREADABLE);
+  return response.blob().catch(() => {
+    throw unreachable();
   });
 }
