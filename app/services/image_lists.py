@@ -13,8 +13,8 @@ from sqlalchemy.orm import InstrumentedAttribute, Session, aliased
 from app.db.models import REVIEW_STATES, Camera, Dataset, Image, ImageTally
 from app.errors import InvalidInput
 from app.services.image_candidates import candidate_conditions
-from app.services.image_summaries import ImageSummary, select_summaries, summaries_of
-from app.services.paging import Counted, Order, Page, checked_limit, counted_up_to, page_of
+from app.services.image_summaries import ImageSummary, image_summaries, select_summaries, summaries_of
+from app.services.paging import COUNTED, Counted, Order, Page, checked_limit, counted, counted_up_to, page_of
 from app.services.tallies import counts_by, image_count, of_dataset
 
 Chosen = TypeVar("Chosen", bound=Select[*tuple[Any, ...]])
@@ -113,12 +113,15 @@ def list_images(
         raise InvalidInput(f"images can't be sorted by {sort!r:.60}", where="sort", expected=", ".join(ORDERS))
     limit = checked_limit(limit)
     matching = _choose(select(Image), dataset, chosen)
-    query = matching.where(order.after(cursor)) if cursor else matching
-    # found first, by an index, and only then joined with what is shown of them
-    found = aliased(Image, query.order_by(*order.clauses()).limit(limit + 1).subquery())
-    rows = summaries_of(session, select_summaries(found).order_by(*order.on(found).clauses()))
-    whole = cursor is None and len(rows) <= limit
-    total = Counted(len(rows)) if whole else _total(session, dataset, chosen, matching)
+    by_tallies = _counted_by_tallies(chosen)
+    if cursor is None and not by_tallies and limit < COUNTED:
+        rows, total = _listed_and_counted(session, matching, order, limit)
+    else:
+        rows = _listed(session, matching.where(order.after(cursor)) if cursor else matching, order, limit)
+        if cursor is None and len(rows) <= limit:
+            total = Counted(len(rows))
+        else:
+            total = _by_tallies(session, dataset, chosen) if by_tallies else counted_up_to(session, matching)
     key = attrgetter(SHOWN[sort.removeprefix("-")], "id")
     return page_of(rows, limit, order, key, total)
 
@@ -161,9 +164,26 @@ def _exact_conditions(table: type[Image | ImageTally], chosen: ImageFilter) -> l
     return conditions
 
 
-def _total(session: Session, dataset: Dataset, chosen: ImageFilter, matching: Select[*tuple[Any, ...]]) -> Counted:
-    if chosen.search or (chosen.person, chosen.verdict, chosen.min_score, chosen.max_score) != (None,) * 4:
-        return counted_up_to(session, matching)
+def _listed(session: Session, matching: Select[Any], order: Order, limit: int) -> list[ImageSummary]:
+    # found first, by an index, and only then joined with what is shown of them
+    found = aliased(Image, matching.order_by(*order.clauses()).limit(limit + 1).subquery())
+    return summaries_of(session, select_summaries(found).order_by(*order.on(found).clauses()))
+
+
+def _listed_and_counted(
+    session: Session, matching: Select[Any], order: Order, limit: int
+) -> tuple[list[ImageSummary], Counted]:
+    """Return a first page and the total of what no tally counts: looking for both at once takes half the time."""
+    found = session.scalars(matching.with_only_columns(Image.id).order_by(*order.clauses()).limit(COUNTED + 1)).all()
+    return image_summaries(session, found[: limit + 1]), counted(len(found))
+
+
+def _counted_by_tallies(chosen: ImageFilter) -> bool:
+    """Return whether an image's tally tells if it is chosen."""
+    return not chosen.search and (chosen.person, chosen.verdict, chosen.min_score, chosen.max_score) == (None,) * 4
+
+
+def _by_tallies(session: Session, dataset: Dataset, chosen: ImageFilter) -> Counted:
     here = (ImageTally.dataset_id == dataset.id, ImageTally.deleted.is_(chosen.deleted))
     return Counted(image_count(session, *here, *_exact_conditions(ImageTally, chosen)))
 

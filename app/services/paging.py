@@ -130,7 +130,11 @@ def counted_up_to(session: Session, query: Select[*tuple[Any, ...]], most: int =
         most: Rows from which on the number doesn't matter any more.
     """
     some = query.with_only_columns(literal(1), maintain_column_froms=True).order_by(None).limit(most + 1).subquery()
-    number = session.scalar(select(func.count()).select_from(some)) or 0
+    return counted(session.scalar(select(func.count()).select_from(some)) or 0, most)
+
+
+def counted(number: int, most: int = COUNTED) -> Counted:
+    """Return what is known when up to ``most + 1`` rows were looked for, and so many found."""
     return Counted(min(number, most), exact=number <= most)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import random
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from fsspec.implementations.memory import MemoryFileSystem
 from app.api.stored_files import PIECE, stored_file_answer
 from app.errors import Unavailable
 from app.storage import BlobStore, open_blobs_at
+from tests.event_loop import run
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def received(blobs: BlobStore, sha256: str, into: list[bytes]) -> None:
             assert isinstance(piece, bytes)
             into.append(piece)
 
-    asyncio.run(take())
+    run(take())
 
 
 @pytest.mark.parametrize("size", [0, 1, PIECE, PIECE + 1, 3 * PIECE])

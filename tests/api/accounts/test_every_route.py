@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import re
 from collections.abc import Awaitable, Callable, Mapping
@@ -12,6 +11,7 @@ from typing import Any
 from app.api.gate import Gate
 from app.api.policy import LEAST
 from app.services.access import ROLES
+from tests.event_loop import run
 
 Place = Any
 Asker = Any
@@ -124,7 +124,7 @@ def ask_all(place: Place, requests: list[tuple[str, str, Headers]], *, gate_alon
     async def one_by_one() -> list[int]:
         return [await ask(*request) for request in requests]
 
-    return asyncio.run(one_by_one())
+    return run(one_by_one())
 
 
 def expected(asker: Asker, method: str, template: str, least: str) -> set[int]:

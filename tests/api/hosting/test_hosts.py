@@ -14,6 +14,7 @@ from app.api.origins import OwnNames, origin_of, own_names
 from app.errors import Forbidden
 from app.settings import Settings
 from tests.api.hosting.conftest import HOME, Serve, token_for
+from tests.event_loop import run
 
 ELSEWHERE = "https://notebooks.example.org"
 
@@ -149,5 +150,5 @@ def test_a_body_that_stops_coming_is_not_waited_for() -> None:
     scope = {"type": "http", "method": "POST", "path": "/", "headers": [(b"host", b"localhost")], "query_string": b""}
     guard = Guard(reading, own=OwnNames(), max_body_bytes=100, silence=0.01)
     with pytest.raises(Exception, match="didn't come") as refused:
-        asyncio.run(guard(scope, receive, send))
+        run(guard(scope, receive, send))
     assert getattr(refused.value, "status", None) == 408

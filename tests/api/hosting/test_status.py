@@ -9,7 +9,6 @@ from dataclasses import replace
 from datetime import datetime, timedelta
 from pathlib import Path
 
-import anyio
 import pytest
 from fastapi.testclient import TestClient
 from sqlalchemy import text
@@ -22,6 +21,7 @@ from app.services.failures import latest_failures
 from app.services.queue_status import queue_standings
 from app.storage import LocalBlobs
 from tests.api.hosting.conftest import server_of, token_for
+from tests.event_loop import run
 
 
 def test_an_admin_sees_how_the_server_is_and_nobody_else_does(hosted: TestClient) -> None:
@@ -67,12 +67,12 @@ def test_health_asks_the_database_nothing(hosted: TestClient) -> None:
 
 def test_tables_of_another_version_are_not_worked_with(database: Database, tmp_path: Path) -> None:
     blobs = LocalBlobs(tmp_path)
-    anyio.run(Readiness(database, blobs).require)
+    run(Readiness(database, blobs).require())
     with database.write() as session:
         session.execute(text("UPDATE alembic_version SET version_num = '0001'"))
     try:
         with pytest.raises(Unavailable, match="another form"):
-            anyio.run(Readiness(database, blobs).require)
+            run(Readiness(database, blobs).require())
     finally:
         back = {"head": Readiness(database, blobs).expected}
         with database.write() as session:
@@ -102,7 +102,7 @@ def slow(tmp_path: Path) -> Iterator[SlowBlobs]:
 def test_a_store_that_hangs_is_not_waited_for(sqlite_database: Database, slow: SlowBlobs) -> None:
     readiness = Readiness(sqlite_database, slow, seconds=0.2)
     with pytest.raises(Unavailable, match="the blob store didn't answer"):
-        anyio.run(readiness.require)
+        run(readiness.require())
 
 
 def test_whoever_asks_without_pause_asks_them_no_oftener(sqlite_database: Database, slow: SlowBlobs) -> None:
@@ -116,7 +116,7 @@ def test_whoever_asks_without_pause_asks_them_no_oftener(sqlite_database: Databa
         seconds[0] = 1.5
         await readiness.require()
 
-    anyio.run(ask)
+    run(ask())
     assert slow.asked == 2
 
 

@@ -12,6 +12,7 @@ import pytest
 from app.api.routers import submissions
 from app.api.waiting import wait_for_validation
 from app.commands.serve import EndingServer
+from tests.event_loop import run
 
 
 class Unfinished:
@@ -39,7 +40,7 @@ def test_a_stream_of_events_ends(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(submissions, "_read", read)
     monkeypatch.setattr(submissions, "EVENTS_PAUSE", 0.001)
-    events = asyncio.run(asyncio.wait_for(events_of(SimpleNamespace(stopping=stopping)), 30))
+    events = run(asyncio.wait_for(events_of(SimpleNamespace(stopping=stopping)), 30))
     assert len(events) == 1
     assert len(asked) == 2
 
@@ -48,7 +49,7 @@ def test_nobody_is_waited_for() -> None:
     stopping = threading.Event()
     stopping.set()
     server: Any = SimpleNamespace(stopping=stopping, settings=SimpleNamespace(validation_seconds=3600.0))
-    asyncio.run(asyncio.wait_for(wait_for_validation(server, 1), 30))
+    run(asyncio.wait_for(wait_for_validation(server, 1), 30))
 
 
 def test_the_application_is_told_with_the_signal() -> None:
