@@ -52,7 +52,9 @@ def listen(host: str, port: int, *, has_accounts: bool = False) -> socket.socket
     if not has_accounts:
         require_loopback(host)
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    server = socket.socket(family, socket.SOCK_STREAM)
+    # asyncio sends without delay (TCP_NODELAY) where a socket says that its protocol is TCP: else each answer in two
+    # pieces waits 40 ms for the acknowledgement of the first
+    server = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     server.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         server.bind((host.strip("[]"), port))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import socket
 
 import pytest
 
 from app.commands.address import address_of, listen
 from app.errors import Forbidden, Unavailable
+from tests.event_loop import run
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "", "192.168.1.4", "example.org", "127.0.0.1.example.org", "[::]"])
@@ -44,3 +46,22 @@ def test_a_port_that_is_taken_is_told_with_what_to_do() -> None:
 def test_where_there_are_accounts_others_may_reach_it() -> None:
     with listen("0.0.0.0", 0, has_accounts=True) as server:
         assert address_of(server) == f"http://0.0.0.0:{server.getsockname()[1]}"
+
+
+def test_answers_are_sent_without_delay() -> None:
+    async def delayed() -> int:
+        accepted: asyncio.Future[int] = asyncio.get_running_loop().create_future()
+
+        def connected(_reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            accepted.set_result(writer.get_extra_info("socket").getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+            writer.close()
+
+        listening = listen("127.0.0.1", 0)
+        async with await asyncio.start_server(connected, sock=listening):
+            _, writer = await asyncio.open_connection(*listening.getsockname())
+            without_delay = await accepted
+            writer.close()
+            await writer.wait_closed()
+        return without_delay
+
+    assert run(delayed()) != 0

@@ -5,16 +5,17 @@ const LARGE = { width: 6000, height: 4000 };
 let asked: string[] = [];
 let working = true;
 /** What the next requests end in, before any is answered. */
-let breaks: ("before" | "within")[] = [];
+let breaks: ("before" | "within" | "silent")[] = [];
 
 beforeEach(() => {
   asked = [];
   working = true;
   breaks = [];
-  vi.stubGlobal("fetch", async (url: string) => {
+  vi.stubGlobal("fetch", async (url: string, { signal }: { signal: AbortSignal }) => {
     asked.push(url);
     const broken = breaks.shift();
     if (broken === "before") throw new TypeError("Failed to fetch");
+    if (broken === "silent") return new Response(silent(signal));
     if (broken === "within") return new Response(brokenOff());
     return working ? new Response(url) : new Response(null, { status: 500 });
   });
@@ -22,6 +23,15 @@ beforeEach(() => {
 });
 
 afterEach(() => vi.unstubAllGlobals());
+
+function silent(signal: AbortSignal): ReadableStream {
+  return new ReadableStream({
+    start: (controller) => {
+      controller.enqueue(new Uint8Array(3));
+      signal.addEventListener("abort", () => controller.error(signal.reason));
+    },
+  });
+}
 
 function brokenOff(): ReadableStream {
   return new ReadableStream({ pull: (controller) => controller.error(new TypeError("network error")) });
@@ -80,6 +90,20 @@ describe("images", () => {
       expect(asked).toEqual(["a", "a"]);
     },
   );
+
+  it("are asked for once more when nothing comes any longer", async () => {
+    vi.useFakeTimers();
+    const loader = new ImageLoader();
+    breaks = ["silent"];
+    const loading = loader.load("a");
+    await vi.advanceTimersByTimeAsync(9_000);
+    expect(asked).toEqual(["a"]);
+    await vi.advanceTimersByTimeAsync(2_000);
+    expect(await loading).toBe(LARGE);
+    expect(asked).toEqual(["a", "a"]);
+    expect(vi.getTimerCount()).toBe(0);
+    vi.useRealTimers();
+  });
 
   it("aren't asked for a third time", async () => {
     const loader = new ImageLoader();

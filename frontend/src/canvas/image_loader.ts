@@ -12,6 +12,9 @@ import type { Size } from "./viewport";
 /** Decoded images are large, 4 bytes per pixel: 256 MB. The one that is shown is kept whatever it measures. */
 const MOST_PIXELS = 64e6;
 
+/** For so long nothing at all may come of an image, ms. */
+const SILENCE = 10_000;
+
 const UNREADABLE: Problem = {
   title: "The image can't be shown",
   status: 422,
@@ -89,16 +92,37 @@ async function fetchBitmap(url: string): Promise<ImageBitmap> {
   });
 }
 
-/** @throws RequestFailed with status 0 where the answer doesn't come, or breaks off. */
+/** @throws RequestFailed with status 0 where the answer doesn't come, breaks off, or falls silent. */
 async function fetchBlob(url: string): Promise<Blob> {
-  const response = await fetch(url).catch(() => {
-    throw unreachable();
-  });
-  if (!response.ok) {
-    const { problem } = problemFrom(await response.json().catch(() => null), response);
-    throw new RequestFailed({ ...problem, title: UNREADABLE.title });
+  const silence = new AbortController();
+  let timer = setTimeout(() => silence.abort(), SILENCE);
+  const heard = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => silence.abort(), SILENCE);
+  };
+  try {
+    const response = await fetch(url, { signal: silence.signal }).catch(() => {
+      throw unreachable();
+    });
+    if (!response.ok) {
+      const { problem } = problemFrom(await response.json().catch(() => null), response);
+      throw new RequestFailed({ ...problem, title: UNREADABLE.title });
+    }
+    const pieces = await piecesOf(response, heard).catch(() => {
+      throw unreachable();
+    });
+    return new Blob(pieces, { type: response.headers.get("Content-Type") ?? "" });
+  } finally {
+    clearTimeout(timer);
   }
-  return response.blob().catch(() => {
-    throw unreachable();
-  });
+}
+
+async function piecesOf({ body }: Response, heard: () => void): Promise<Uint8Array<ArrayBuffer>[]> {
+  const pieces: Uint8Array<ArrayBuffer>[] = [];
+  const reader = body?.getReader();
+  for (let read = await reader?.read(); read?.value !== undefined; read = await reader?.read()) {
+    heard();
+    pieces.push(read.value);
+  }
+  return pieces;
 }

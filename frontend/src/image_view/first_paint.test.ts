@@ -1,8 +1,17 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { FirstPaint } from "./first_paint";
 
-beforeEach(() => void vi.useFakeTimers());
-afterEach(() => void vi.useRealTimers());
+const FRAME = 16;
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("requestAnimationFrame", (call: () => void) => setTimeout(call, FRAME));
+});
+
+afterEach(() => {
+  vi.unstubAllGlobals();
+  vi.useRealTimers();
+});
 
 async function isOver(promise: Promise<void>): Promise<boolean> {
   let over = false;
@@ -20,6 +29,9 @@ describe("what waits for an image to be seen", () => {
     paint.painted(6);
     expect(await isOver(seen[0])).toBe(false);
     paint.painted(7);
+    // The frame itself comes first.
+    expect(await isOver(seen[0])).toBe(false);
+    await vi.advanceTimersByTimeAsync(FRAME + 1);
     expect(await isOver(seen[0])).toBe(true);
     expect(await isOver(seen[1])).toBe(true);
   });

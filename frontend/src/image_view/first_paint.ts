@@ -1,5 +1,7 @@
 /** Lets what is needed later wait until an image is seen: on a small machine it would take the time from it. */
 
+import { afterNextFrame } from "./after_next_frame";
+
 /** An image that can't be shown holds nothing up for longer (ms). */
 const PATIENCE = 3_000;
 
@@ -12,8 +14,8 @@ export class FirstPaint {
     this.seen = imageId;
     const calls = this.waiting.get(imageId);
     this.waiting.delete(imageId);
-    // After the frame that was drawn, which is on the screen only then.
-    for (const call of calls ?? []) setTimeout(call);
+    // Once the frame that was drawn is on the screen.
+    for (const call of calls ?? []) afterNextFrame(call);
   }
 
   /** Resolves once the image is seen, or doesn't come; at once where it is the one that was drawn last. */
@@ -22,7 +24,11 @@ export class FirstPaint {
     return new Promise((resolve) => {
       const calls = this.waiting.get(imageId) ?? new Set();
       this.waiting.set(imageId, calls.add(resolve));
-      setTimeout(resolve, PATIENCE);
+      setTimeout(() => {
+        calls.delete(resolve);
+        if (calls.size === 0 && this.waiting.get(imageId) === calls) this.waiting.delete(imageId);
+        resolve();
+      }, PATIENCE);
     });
   }
 }
