@@ -5,8 +5,6 @@ import { loadAnnotations } from "./annotations";
 import { KnownScenes } from "./known_scenes";
 import { candidate } from "./test_candidates";
 
-const SENT = Promise.resolve();
-
 function sceneOf(revision: number, ids: number[]): Scene {
   return makeScene({
     revision,
@@ -34,7 +32,7 @@ function serverWith(revision: number, ids: number[]) {
       return sceneOf(state.revision, state.ids);
     },
   };
-  return { state, load: () => loadAnnotations(7, SENT, sources) };
+  return { state, load: () => loadAnnotations(7, sources) };
 }
 
 describe("annotations", () => {
@@ -73,7 +71,7 @@ describe("annotations", () => {
       segments: async () => ({ ...(await serverWith(2, [4]).load()), segments: [] }) as never,
       scene: async () => sceneOf(state.revision++, [4]),
     };
-    await expect(loadAnnotations(7, SENT, sources)).rejects.toThrow("keep changing");
+    await expect(loadAnnotations(7, sources)).rejects.toThrow("keep changing");
   });
 });
 

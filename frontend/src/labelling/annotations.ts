@@ -33,17 +33,12 @@ const SERVER: Sources = {
   known: new KnownScenes(),
 };
 
-/** @param sent Resolves once the server knows all verdicts that were given here; the points don't wait for it. */
-export async function loadAnnotations(
-  imageId: number,
-  sent: Promise<unknown>,
-  sources: Sources = SERVER,
-): Promise<Annotations> {
+export async function loadAnnotations(imageId: number, sources: Sources = SERVER): Promise<Annotations> {
   const { known } = sources;
   for (let attempt = 1; ; attempt++) {
     const before = known.get(imageId);
     const [segments, scene] = await Promise.all([
-      sent.then(() => sources.segments(imageId)),
+      sources.segments(imageId),
       before ?? sources.scene(imageId),
     ]);
     const candidates = inOrderOf(scene, segments);

@@ -3,7 +3,7 @@ import { Link, useParams } from "react-router";
 import { useRights } from "../../api/use_rights";
 import { buttonClass } from "../../design/button";
 import { PageFrame } from "../../design/page_frame";
-import { ErrorState, LoadingState } from "../../design/states";
+import { ErrorState } from "../../design/states";
 import { shortName } from "../../image_view/short_name";
 import { outbox } from "../../labelling/outbox_start";
 import { PLAIN_LOOK } from "../../labelling/views/image_look";
@@ -13,6 +13,7 @@ import { Presence } from "./people/presence";
 import { useLease } from "./people/use_lease";
 import { SaveIndicator } from "./saving/save_indicator";
 import { useLabelSession } from "./session/use_label_session";
+import { WorkspaceOutline } from "./workspace_outline";
 import "../../image_view/image_view.css";
 import "../../image_view/panel.css";
 
@@ -56,7 +57,7 @@ export function LabelPage() {
           }
         />
       ) : (
-        <LoadingState label="Loading the image" />
+        <WorkspaceOutline />
       )}
     </PageFrame>
   );

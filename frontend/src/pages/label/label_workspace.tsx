@@ -1,4 +1,4 @@
-import { useState } from "react";
+import { useDeferredValue, useState } from "react";
 import { KeyList } from "../../image_view/key_list";
 import { type KeyHint, StatusStrip } from "../../image_view/status_strip";
 import { COMMAND_GROUPS, COMMANDS } from "../../labelling/commands";
@@ -36,6 +36,8 @@ export function LabelWorkspace(parts: WorkspaceParts) {
   const workspace = useWorkspace(parts);
   const { viewRef, focus, shown, control, seen, judges, drawing, actions } = workspace;
   const [scale, setScale] = useState(1);
+  // The image is begun with first: what is around it is made while its lines are drawn.
+  const furnished = useDeferredValue(true, false);
 
   function closeJump(): void {
     control.toggleJump();
@@ -59,21 +61,29 @@ export function LabelWorkspace(parts: WorkspaceParts) {
           onScale={setScale}
         />
         {store ? <Announcer store={store} /> : null}
-        <ToolBar>{judges ? <DrawButtons tracing={drawing.tracing} actions={actions} /> : null}</ToolBar>
+        {furnished ? (
+          <ToolBar>{judges ? <DrawButtons tracing={drawing.tracing} actions={actions} /> : null}</ToolBar>
+        ) : (
+          <div className="tool-bar" />
+        )}
         <ImageNotices {...parts} workspace={workspace} />
         {shown.jump ? <JumpBox slug={slug} onGo={actions.goTo} onClose={closeJump} /> : null}
         {shown.guidelines ? <GuidelinesBox slug={slug} onClose={control.toggleGuidelines} /> : null}
         {shown.keyList ? (
           <KeyList commands={COMMANDS} groups={COMMAND_GROUPS} onClose={control.toggleKeyList} />
         ) : null}
-        <StatusStrip
-          hints={judges ? HINTS : LOOKING_HINTS}
-          tip={judges && store ? <HintTip image={image} store={store} /> : null}
-          scale={scale}
-          actions={actions}
-        />
+        {furnished ? (
+          <StatusStrip
+            hints={judges ? HINTS : LOOKING_HINTS}
+            tip={judges && store ? <HintTip image={image} store={store} /> : null}
+            scale={scale}
+            actions={actions}
+          />
+        ) : (
+          <div className="status-strip" />
+        )}
       </div>
-      {store && seen.scene ? (
+      {furnished && store && seen.scene ? (
         <SidePanel
           slug={slug}
           image={image}

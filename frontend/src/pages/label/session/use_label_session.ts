@@ -7,7 +7,8 @@ import {
   useQuery,
   useQueryClient,
 } from "@tanstack/react-query";
-import { useEffect, useLayoutEffect, useMemo, useRef } from "react";
+import { useEffect, useMemo, useRef } from "react";
+import { meQuery } from "../../../api/board_queries";
 import { displayUrl } from "../../../api/endpoints";
 import { imageQuery, keys, suggestionsQuery } from "../../../api/queries";
 import type { ImageDetail } from "../../../api/types";
@@ -33,19 +34,25 @@ export const annotationsKey = (imageId: number) => [...keys.image(imageId), "ann
 const annotationsQuery = (imageId: number) =>
   queryOptions({
     queryKey: annotationsKey(imageId),
-    queryFn: async () => {
-      const annotations = await loadAnnotations(imageId, sent(imageId));
-      prepareLines(annotations);
-      return annotations;
-    },
+    queryFn: () => currentAnnotations(imageId),
     // The store made of it is the truth from here on; fetching again would throw its selection away.
     staleTime: Number.POSITIVE_INFINITY,
   });
 
-/** What was decided here a moment ago is in the answer then; without a network the fetch says so itself. */
-async function sent(imageId: number): Promise<void> {
-  await outbox.ready;
-  if (outbox.pendingFor(imageId).length > 0) await outbox.flush().catch(() => undefined);
+/**
+ * The candidates with all verdicts that were given here. To learn whether some wait to be sent takes the browser as long
+ * as all else: the server is asked meanwhile, and once more where there were some.
+ */
+async function currentAnnotations(imageId: number): Promise<Annotations> {
+  const unsent = outbox.ready.then(() => outbox.pendingFor(imageId).length > 0);
+  const annotations = await loadAnnotations(imageId);
+  prepareLines(annotations);
+  if (!(await unsent)) return annotations;
+  // Without a network the next request says so itself.
+  await outbox.flush().catch(() => undefined);
+  const current = await loadAnnotations(imageId);
+  prepareLines(current);
+  return current;
 }
 
 /** Has the lines drawn as they will be seen when the image is opened. */
@@ -68,6 +75,7 @@ export function useLabelSession(slug: string, imageId: number): LabelSession {
   // Asked for while the page is rendered, not once an empty one has been painted.
   usePrefetchQuery(imageQuery(imageId));
   usePrefetchQuery(annotationsQuery(imageId));
+  usePrefetchQuery(meQuery);
   const image = useQuery({
     ...imageQuery(imageId),
     refetchInterval: ({ state }) => (isUnderWay(state.data) ? POLL : false),
@@ -76,7 +84,7 @@ export function useLabelSession(slug: string, imageId: number): LabelSession {
   const data = annotations.data;
 
   // Together with the rest, not after it: whatever goes wrong is said by who shows it.
-  useLayoutEffect(() => {
+  useMemo(() => {
     imageLoader.load(displayUrl(imageId)).catch(() => undefined);
   }, [imageId]);
 
