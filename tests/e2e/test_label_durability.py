@@ -16,6 +16,8 @@ from app.formats.label_npy import write_label_npy
 from app.vision.segments import Segments
 
 LINES = 200
+IN_A_HURRY = 50
+"""Verdicts in the tab that is closed right after them."""
 RECORDER = """
 (() => {
   const add = IDBObjectStore.prototype.add;
@@ -89,7 +91,7 @@ def test_every_verdict_arrives_once_and_in_order(
 
     server = serve(port=int(server.address.rpartition(":")[2]))
     second = open_tab(page.context, address)
-    judge(second, 50)
+    judge(second, IN_A_HURRY)
     second.close()  # whatever the browser has taken by now mustn't be lost
 
     third = open_tab(page.context, address)
@@ -106,7 +108,7 @@ def test_every_verdict_arrives_once_and_in_order(
     # a tab that is closed takes along what the recorder was about to tell of its last rows
     asked = set(recorded["asked"])
     assert [row for row in arrived if row in asked] == [row for row in recorded["asked"] if row in set(arrived)]
-    assert len(asked) >= LINES
+    assert len(asked) >= LINES - IN_A_HURRY
     assert set(recorded["kept"]) <= set(arrived)
     last = {segment: verdict for _, segment, verdict in arrived}
     segments = server.ask(f"/images/{image}/segments")["segments"]
