@@ -36,6 +36,8 @@ OPENINGS = 7
 SWITCHES = 8
 WINDOW_PAUSE = 2_500
 """What a new window gets for its own parts before an image is opened in it, ms."""
+AFTERWARDS = 2_000
+"""What a page gets for all that it asks for after its first paint, so that the next one isn't served beside it, ms."""
 LATE = 25.0
 """From this interval on a frame has been dropped, ms."""
 PROBE = Path(__file__).with_name("labelling_probe.js")
@@ -70,6 +72,7 @@ def first_paints(browser: Browser, address: str, pause: float) -> list[float]:
     for _ in range(OPENINGS):
         page = open_image(browser, address, "dense", 0, pause=pause)
         paints.append(wait_for_probe(page, "painted"))
+        page.wait_for_timeout(AFTERWARDS)
         page.context.close()
     return paints
 

@@ -9,8 +9,8 @@ import { problemFrom, RequestFailed, unreachable } from "../api/problem";
 import type { Problem } from "../api/types";
 import type { Size } from "./viewport";
 
-/** Decoded images are large, 4 bytes per pixel: 256 MB. The one that is shown is kept whatever it measures. */
-const MOST_PIXELS = 64e6;
+/** Decoded images are large, 4 bytes per pixel: 192 MB. The one that is shown is kept whatever it measures. */
+const MOST_PIXELS = 48e6;
 
 /** For so long nothing at all may come of an image, ms. */
 const SILENCE = 10_000;
