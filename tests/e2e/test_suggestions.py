@@ -113,7 +113,7 @@ def test_s_accepts_what_is_suggested_on_the_screen_and_undo_takes_it_back(page: 
     expect(button).to_be_visible()
     page.keyboard.press("s")
     expect(progress(page)).to_have_text(f"{LINES} of {LINES} judged")
-    expect(panel.get_by_role("button", name="Nothing to accept here")).to_be_disabled()
+    expect(panel.get_by_role("button", name="Nothing to accept")).to_be_disabled()
     page.keyboard.press("z")
     expect(progress(page)).to_have_text(f"0 of {LINES} judged")
     expect(button).to_be_visible()

@@ -155,7 +155,7 @@ function ModelLine({ slug, model }: { slug: string; model: NonNullable<Suggestio
 }
 
 function acceptText({ keep, reject }: { keep: number; reject: number }): string {
-  if (keep + reject === 0) return "Nothing to accept here";
+  if (keep + reject === 0) return "Nothing to accept";
   if (reject === 0) return `Keep ${formatCount(keep)}`;
   if (keep === 0) return `Reject ${formatCount(reject)}`;
   return `Keep ${formatCount(keep)}, reject ${formatCount(reject)}`;
