@@ -113,15 +113,12 @@ def list_images(
         raise InvalidInput(f"images can't be sorted by {sort!r:.60}", where="sort", expected=", ".join(ORDERS))
     limit = checked_limit(limit)
     matching = _choose(select(Image), dataset, chosen)
-    by_tallies = _counted_by_tallies(chosen)
-    if cursor is None and not by_tallies and limit < COUNTED:
+    if cursor is None and limit < COUNTED and not _counted_by_tallies(chosen):
         rows, total = _listed_and_counted(session, matching, order, limit)
     else:
         rows = _listed(session, matching.where(order.after(cursor)) if cursor else matching, order, limit)
-        if cursor is None and len(rows) <= limit:
-            total = Counted(len(rows))
-        else:
-            total = _by_tallies(session, dataset, chosen) if by_tallies else counted_up_to(session, matching)
+        whole = cursor is None and len(rows) <= limit
+        total = Counted(len(rows)) if whole else _total(session, dataset, chosen, matching)
     key = attrgetter(SHOWN[sort.removeprefix("-")], "id")
     return page_of(rows, limit, order, key, total)
 
@@ -183,7 +180,9 @@ def _counted_by_tallies(chosen: ImageFilter) -> bool:
     return not chosen.search and (chosen.person, chosen.verdict, chosen.min_score, chosen.max_score) == (None,) * 4
 
 
-def _by_tallies(session: Session, dataset: Dataset, chosen: ImageFilter) -> Counted:
+def _total(session: Session, dataset: Dataset, chosen: ImageFilter, matching: Select[Any]) -> Counted:
+    if not _counted_by_tallies(chosen):
+        return counted_up_to(session, matching)
     here = (ImageTally.dataset_id == dataset.id, ImageTally.deleted.is_(chosen.deleted))
     return Counted(image_count(session, *here, *_exact_conditions(ImageTally, chosen)))
 

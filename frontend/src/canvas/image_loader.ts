@@ -95,11 +95,12 @@ async function fetchBitmap(url: string): Promise<ImageBitmap> {
 /** @throws RequestFailed with status 0 where the answer doesn't come, breaks off, or falls silent. */
 async function fetchBlob(url: string): Promise<Blob> {
   const silence = new AbortController();
-  let timer = setTimeout(() => silence.abort(), SILENCE);
+  let timer: ReturnType<typeof setTimeout> | undefined;
   const heard = () => {
     clearTimeout(timer);
     timer = setTimeout(() => silence.abort(), SILENCE);
   };
+  heard();
   try {
     const response = await fetch(url, { signal: silence.signal }).catch(() => {
       throw unreachable();

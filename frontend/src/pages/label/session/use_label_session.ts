@@ -45,14 +45,17 @@ const annotationsQuery = (imageId: number) =>
  */
 async function currentAnnotations(imageId: number): Promise<Annotations> {
   const unsent = outbox.ready.then(() => outbox.pendingFor(imageId).length > 0);
-  const annotations = await loadAnnotations(imageId);
-  prepareLines(annotations);
+  const annotations = await drawnAnnotations(imageId);
   if (!(await unsent)) return annotations;
   // Without a network the next request says so itself.
   await outbox.flush().catch(() => undefined);
-  const current = await loadAnnotations(imageId);
-  prepareLines(current);
-  return current;
+  return drawnAnnotations(imageId);
+}
+
+async function drawnAnnotations(imageId: number): Promise<Annotations> {
+  const annotations = await loadAnnotations(imageId);
+  prepareLines(annotations);
+  return annotations;
 }
 
 /** Has the lines drawn as they will be seen when the image is opened. */
